@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
+#include <utility>
 
+#include "common/eigen_every.hpp"
+#include "linear/cholesky/inverse_form.hpp"
 #include "linear/kernels/orthonormalisation.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
@@ -20,6 +25,21 @@ petsc::Matrix solved(Mat factor, Mat F)
   petsc::Matrix z = linear::uninitialized_dense(F, linear::LocalRows(F).n_cols());
   petsc::check(MatMatSolve(factor, F, z));
   return z;
+}
+
+/// A copy of some columns.
+petsc::Matrix columns_of(Mat X, std::span<const int> numbers)
+{
+  petsc::Matrix some = linear::uninitialized_dense(X, std::ssize(numbers));
+  const linear::LocalRows all(X);
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArrayWrite(some, &values));
+  for (std::size_t j = 0; j < numbers.size(); ++j) {
+    std::copy_n(all.values() + std::size_t(numbers[j]) * all.leading_dimension(), all.n_rows(),
+                values + j * all.n_rows());
+  }
+  petsc::check(MatDenseRestoreArrayWrite(some, &values));
+  return some;
 }
 
 petsc::Matrix combined(Mat X, const MatrixXd& S)
@@ -74,31 +94,46 @@ petsc::Matrix orthonormal(Mat shapes, Mat Phi, const VectorXd& lambda, Mat K)
 
 ResidualForms::ResidualForms(const GrowingBasis& basis) : of_(basis)
 {
+  moving_ = of_.moving.value_or(std::vector<int>(std::size_t(of_.model.n_masters)));
+  if (!of_.moving) std::iota(moving_.begin(), moving_.end(), 0);
   const MatrixXd H_mm = forms_of_masters();
-  const petsc::Matrix D = linear::sparse_product(of_.M.ss, of_.Q_CB.modes->Phi);
-  z_D_ = solved(of_.K_ss.factor(), D);
-  H_ = bordered(H_mm, linear::inner_product(z_B_, D), symmetric(linear::inner_product(z_D_, D)));
+  linear::InverseForm D = linear::inverse_form(
+      of_.K_ss.factor(), linear::sparse_product(of_.M.ss, of_.Q_CB.modes->Phi));
+  H_ = bordered(H_mm, with_masters(D.right()), symmetric(linear::inner_product(D.left, D.right())));
+  left_D_ = std::move(D.left);
 }
 
 MatrixXd ResidualForms::forms_of_masters()
 {
   constexpr PetscInt most = 64;  // columns of B at a time
-  const Mat Psi = of_.Q_CB.Psi;
-  const PetscInt n_m = linear::LocalRows(Psi).n_cols();
-  z_B_ = linear::uninitialized_dense(of_.K.ss, n_m);
-  petsc::check(MatZeroEntries(z_B_));
-  const MatrixXd unit = MatrixXd::Identity(n_m, n_m);
-  MatrixXd H = MatrixXd::Zero(n_m, n_m);
-  for (PetscInt first = 0; first < n_m; first += most) {
-    const PetscInt last = std::min(first + most, n_m);
-    const petsc::Matrix B = linear::sparse_product(of_.M.ss, linear::ColumnRange(Psi, first, last));
+  const auto n = static_cast<PetscInt>(moving_.size());
+  const PetscInt n_m = of_.model.n_masters;
+  left_B_ = linear::uninitialized_dense(of_.K.ss, n);
+  MatrixXd unit = MatrixXd::Zero(n_m, n);
+  for (PetscInt j = 0; j < n; ++j) unit(moving_[std::size_t(j)], j) = 1.0;
+  MatrixXd H = MatrixXd::Zero(n, n);
+  for (PetscInt first = 0; first < n; first += most) {
+    const PetscInt last = std::min(first + most, n);
+    petsc::Matrix B = linear::sparse_product(
+        of_.M.ss,
+        columns_of(of_.Q_CB.Psi, std::span(moving_).subspan(first, std::size_t(last - first))));
     linear::add_sparse_product(of_.M.sm, unit.middleCols(first, last - first), B);
-    const petsc::Matrix z = solved(of_.K_ss.factor(), B);
-    petsc::check(MatCopy(z, linear::ColumnRange(z_B_, first, last), SAME_NONZERO_PATTERN));
+    const linear::InverseForm form = linear::inverse_form(of_.K_ss.factor(), std::move(B));
+    petsc::check(
+        MatCopy(form.left, linear::ColumnRange(left_B_, first, last), SAME_NONZERO_PATTERN));
     H.block(0, first, last, last - first) =
-        linear::inner_product(linear::ColumnRange(z_B_, 0, last), B);
+        linear::inner_product(linear::ColumnRange(left_B_, 0, last), form.right());
   }
-  return H.selfadjointView<Eigen::Upper>();
+  MatrixXd of_all = MatrixXd::Zero(n_m, n_m);
+  of_all(moving_, moving_) = MatrixXd(H.selfadjointView<Eigen::Upper>());
+  return of_all;
+}
+
+MatrixXd ResidualForms::with_masters(Mat right) const
+{
+  MatrixXd forms = MatrixXd::Zero(of_.model.n_masters, linear::LocalRows(right).n_cols());
+  forms(moving_, every) = linear::inner_product(left_B_, right);
+  return forms;
 }
 
 MatrixXd ResidualForms::energy(const MatrixXd& X, double s) const
@@ -117,8 +152,12 @@ petsc::Matrix ResidualForms::shapes(const MatrixXd& X, double s) const
   const Index n_q = std::ssize(of_.model.omega);
   const MatrixXd X_m = X.topRows(X.rows() - n_q), X_q = X.bottomRows(n_q);
   petsc::Matrix z = combined(of_.Q_CB.modes->Phi, X_q);
-  linear::add_product(-s, z_B_, X_m, z);
-  linear::add_product(-s, z_D_, X_q, z);
+  petsc::Matrix u;
+  petsc::check(MatDuplicate(z, MAT_COPY_VALUES, u.put()));
+  linear::add_product(1.0, of_.Q_CB.Psi, X_m, u);
+  const petsc::Matrix inertia = linear::sparse_product(of_.M.ss, u);
+  linear::add_sparse_product(of_.M.sm, X_m, inertia);
+  petsc::check(MatAXPY(z, -s, solved(of_.K_ss.factor(), inertia), SAME_NONZERO_PATTERN));
   return z;
 }
 
@@ -128,18 +167,19 @@ void ResidualForms::append(Mat shapes)
   FixedInterfaceModes& modes = *of_.Q_CB.modes;
   const petsc::Matrix Z = orthonormal(shapes, modes.Phi, stiffness_of_modes(model), of_.K.ss);
   const PetscInt k = linear::LocalRows(Z).n_cols();
-  const petsc::Matrix D = linear::sparse_product(of_.M.ss, Z), z = solved(of_.K_ss.factor(), D);
+  petsc::Matrix D = linear::sparse_product(of_.M.ss, Z);
   MatrixXd above(model.M.rows(), k), H_above(H_.rows(), k);
   above.topRows(model.n_masters) = linear::inner_product(of_.Q_CB.Psi, D) +
                                    linear::inner_product_sparse(Z, of_.M.sm).transpose();
   above.bottomRows(std::ssize(model.omega)) = linear::inner_product(modes.Phi, D);
-  H_above.topRows(model.n_masters) = linear::inner_product(z_B_, D);
-  H_above.bottomRows(std::ssize(model.omega)) = linear::inner_product(z_D_, D);
-  H_ = bordered(H_, H_above, symmetric(linear::inner_product(z, D)));
   model.M = bordered(model.M, above, symmetric(linear::inner_product(Z, D)));
+  const linear::InverseForm form = linear::inverse_form(of_.K_ss.factor(), std::move(D));
+  H_above.topRows(model.n_masters) = with_masters(form.right());
+  H_above.bottomRows(std::ssize(model.omega)) = linear::inner_product(left_D_, form.right());
+  H_ = bordered(H_, H_above, symmetric(linear::inner_product(form.left, form.right())));
   model.K = bordered(model.K, MatrixXd::Zero(model.K.rows(), k), MatrixXd::Identity(k, k));
   modes.Phi = beside(modes.Phi, Z, k);
-  z_D_ = beside(z_D_, z, k);
+  left_D_ = beside(left_D_, form.left, k);
   model.omega.resize(model.omega.size() + std::size_t(k), 1.0);
 }
 

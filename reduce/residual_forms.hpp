@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "reduce/craig_bampton.hpp"
 
 namespace chladni::reduce {
@@ -11,6 +14,8 @@ struct GrowingBasis {
   const Blocks& M;
   CraigBamptonBasis& Q_CB;
   ReducedModel& model;
+  /// Masters that the motions to be measured move, ascending; without a list all of them.
+  std::optional<std::vector<int>> moving = {};
 };
 
 /// Residual forces at the slaves that motions x of a reduced model leave at any frequency, s =
@@ -18,13 +23,13 @@ struct GrowingBasis {
 /// r^T K_ss^-1 r = x_q^T K_qq x_q - 2 s x_q^T (M_qm x_m + M_qq x_q) + s^2 x^T H x.
 class ResidualForms {
  public:
-  /// What `basis` refers to must outlive this object. Solves for n_m + n_CB columns, which stay in
-  /// memory.
+  /// What `basis` refers to must outlive this object. Half a solution for each moving master and
+  /// each of n_CB columns, which stay in memory.
   /// @note   Collective, as are all members.
   explicit ResidualForms(const GrowingBasis& basis);
 
   /// G = r^T K_ss^-1 r of the residuals of motions X.
-  /// @param X  [n_m + n_CB x l]
+  /// @param X  [n_m + n_CB x l], zero at masters that do not move
   /// @param s  Omega^2, rad^2/s^2
   /// @return [l x l]
   Eigen::MatrixXd energy(const Eigen::MatrixXd& X, double s) const;
@@ -39,12 +44,15 @@ class ResidualForms {
   void make_ritz();
 
  private:
-  /// B^T K_ss^-1 B, [n_m x n_m].
+  /// B^T K_ss^-1 B, [n_m x n_m], zero where a master does not move.
   Eigen::MatrixXd forms_of_masters();
+  /// B^T K_ss^-1 F, [n_m x k].
+  Eigen::MatrixXd with_masters(Mat right) const;
 
   GrowingBasis of_;
-  petsc::Matrix z_B_, z_D_;  ///< K_ss^-1 B, K_ss^-1 D
-  Eigen::MatrixXd H_;        ///< [B D]^T K_ss^-1 [B D]
+  std::vector<int> moving_;
+  petsc::Matrix left_B_, left_D_;  ///< `linear::InverseForm::left` of B (moving masters) and D
+  Eigen::MatrixXd H_;              ///< [B D]^T K_ss^-1 [B D]
 };
 
 }  // namespace chladni::reduce

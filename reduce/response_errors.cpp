@@ -9,6 +9,7 @@
 
 #include "common/all_ranks.hpp"
 #include "common/eigen_every.hpp"
+#include "linear/dense/decoupled_coordinates.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "reduce/held_masters.hpp"
@@ -27,7 +28,7 @@ MatrixXd of_first_rank(MatrixXd A, MPI_Comm comm)
   return A;
 }
 
-/// X = (K_r - Omega^2 M_r)^-1 F with some masters held.
+/// X = (K_r - Omega^2 M_r)^-1 F with some masters held, or still anyway.
 MatrixXd responses(const ReducedModel& model, const MatrixXd& F, double Omega,
                    const std::vector<int>& held, MPI_Comm comm)
 {
@@ -65,12 +66,42 @@ ResponseLoads loads_everywhere(const ResponseGoal& goal, const ReducedModel& mod
   return loads;
 }
 
-/// The combinations of loads whose errors are more than a tenth of what is allowed, such that the
+/// Without what couples coordinates so weakly that no response shows it: modes of the whole body
+/// have a share of round-off in all its parts.
+MatrixXd coupling(const MatrixXd& A)
+{
+  constexpr double weak = 1e-10;
+  const VectorXd root = A.diagonal().cwiseAbs().cwiseSqrt();
+  const MatrixXd least = weak * root * root.transpose();
+  return (A.array().abs() > least.array()).select(A, 0.0);
+}
+
+/// The masters that no load moves, ascending: those that are held, and those that are not coupled
+/// to a loaded one, as motion in the plane to bending.
+std::vector<int> still_masters(const ReducedModel& model, const MatrixXd& F,
+                               const std::vector<int>& held, MPI_Comm comm)
+{
+  std::vector<int> moves(std::size_t(model.n_masters), 0);
+  for (const auto& set : linear::decoupled_coordinates(coupling(model.K), coupling(model.M))) {
+    const bool is_loaded = std::ranges::any_of(
+        set, [&](Index i) { return i < F.rows() && (F.row(i).array() != 0.0).any(); });
+    for (const Index i : set)
+      if (is_loaded && i < model.n_masters) moves[std::size_t(i)] = 1;
+  }
+  for (const int i : held) moves[std::size_t(i)] = 0;
+  MPI_Bcast(moves.data(), model.n_masters, MPI_INT, 0, comm);
+  std::vector<int> still;
+  for (int i = 0; i < model.n_masters; ++i)
+    if (moves[std::size_t(i)] == 0) still.push_back(i);
+  return still;
+}
+
+/// The combinations of loads whose errors are more than a third of what is allowed, such that the
 /// shapes of their residuals are K-orthonormal.
 /// @param allowed  [l] errors
 MatrixXd combinations_above(const MatrixXd& G, const VectorXd& allowed, double c)
 {
-  constexpr double share = 0.1;
+  constexpr double share = 0.3;
   const VectorXd unit = allowed.cwiseSqrt().cwiseInverse();
   const MatrixXd relative = unit.asDiagonal() * G * unit.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> errors(relative);
@@ -128,16 +159,18 @@ ResponseCertificate keep_responses(const WholeSystem& body, const RespondingMode
   require_modes_of_range(goal.Omega, lambda_left_out);
   const MPI_Comm comm = petsc::communicator(body.K_blocks.ss);
   const ResponseLoads loads = loads_everywhere(goal, made.model, comm);
+  const std::vector<int> still = still_masters(made.model, loads.F, held, comm);
   ResidualForms forms({.K_ss = body.K_ss,
                        .K = body.K_blocks,
                        .M = body.M_blocks,
                        .Q_CB = made.Q_CB,
-                       .model = made.model});
+                       .model = made.model,
+                       .moving = all_but(still, made.model.n_masters)});
   const auto worst_of = [&] {
     Worst worst;
     for (Index g = 0; g < loads.Omega.size(); ++g) {
       const double Omega = loads.Omega[g];
-      MatrixXd X = responses(made.model, loads.F, Omega, held, comm);
+      MatrixXd X = responses(made.model, loads.F, Omega, still, comm);
       MatrixXd G = of_first_rank(forms.energy(X, Omega * Omega), comm);
       const double error = response_error_bounds(G, Omega, lambda_left_out)
                                .cwiseQuotient(loads.size.col(g))

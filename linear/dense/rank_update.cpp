@@ -1,5 +1,7 @@
 #include "linear/dense/rank_update.hpp"
 
+#include <array>
+
 #include "common/fitting_instructions.hpp"
 
 namespace chladni::linear {
@@ -29,6 +31,21 @@ void subtract_from_column(const Columns& U, const double* s, double* __restrict 
     for (Index i = 0; i < n; ++i) a[i] -= U.values[c * n + i] * s[c];
 }
 
+/// Side by side, so that the compiler may use wide instructions.
+CHLADNI_FITTING_INSTRUCTIONS
+double sum_of_squares(const double* a, Index n)
+{
+  constexpr Index width = 16;
+  std::array<double, width> sums{};
+  Index i = 0;
+  for (; i + width <= n; i += width)
+    for (Index k = 0; k < width; ++k) sums[std::size_t(k)] += a[i + k] * a[i + k];
+  double sum = 0.0;
+  for (; i < n; ++i) sum += a[i] * a[i];
+  for (const double some : sums) sum += some;
+  return sum;
+}
+
 }  // namespace
 
 Eigen::VectorXd subtract_of_low_rank(const Eigen::MatrixXd& U, const Eigen::MatrixXd& S, double* A)
@@ -37,7 +54,7 @@ Eigen::VectorXd subtract_of_low_rank(const Eigen::MatrixXd& U, const Eigen::Matr
   for (Index j = 0; j < S.cols(); ++j) {
     double* a = A + j * U.rows();
     subtract_from_column({U.data(), U.rows(), U.cols()}, S.data() + j * S.rows(), a);
-    squares[j] = Eigen::Map<const Eigen::VectorXd>(a, U.rows()).squaredNorm();
+    squares[j] = sum_of_squares(a, U.rows());
   }
   return squares;
 }
