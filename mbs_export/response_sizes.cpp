@@ -7,6 +7,7 @@
 #include "mbs_export/attachment_motion.hpp"
 #include "mbs_export/body_option_error.hpp"
 #include "mbs_export/held_body.hpp"
+#include "mbs_export/held_modes.hpp"
 #include "mbs_export/response_error.hpp"
 
 namespace chladni::mbs_export {
@@ -58,6 +59,23 @@ MatrixXd least_sizes(const ReferenceResponse& reference, const VectorXd& Omega)
   return least;
 }
 
+/// All modes of the held body, and their motion at some DOFs.
+struct Shapes {
+  VectorXd omega;  ///< [n] rad/s
+  MatrixXd B;      ///< [n x m]
+};
+
+/// Without rigid-body motions one eigenproblem is enough.
+Shapes shapes_at(const ReducedSystem& reduced, const std::vector<std::string>& fixed,
+                 const std::vector<int>& dofs)
+{
+  const HeldModeShapes modes = held_mode_shapes(reduced, fixed);
+  if (modes.n_rigid == 0)
+    return {modes.omega, attachment_motion(reduced, modes.X)(dofs, every).transpose()};
+  const HeldBody body = held_body(reduced, fixed);
+  return {body.constrained.omega, body.U(dofs, every).transpose()};
+}
+
 }  // namespace
 
 ResponseSizes response_sizes(const ReferenceResponse& reference, const Tolerance& tolerance)
@@ -72,11 +90,11 @@ ResponseSizes response_sizes(const ReferenceResponse& reference, const Tolerance
 
 ResponseSizes response_sizes(const ReducedSystem& reduced, const BodyOptions& options)
 {
-  const HeldBody body = held_body(reduced, options.fixed);
-  const LoadedDofs loads = loaded_dofs(reduced, body.held, options.interface_modes);
-  const MatrixXd B = body.U(loads.dofs, every).transpose();
+  const LoadedDofs loads =
+      loaded_dofs(reduced, held_dofs(reduced, options.fixed), options.interface_modes);
+  const Shapes shapes = shapes_at(reduced, options.fixed, loads.dofs);
   const ReferenceResponse reference =
-      reference_response(body.constrained.omega, B, loads, options.keep.tolerance.value());
+      reference_response(shapes.omega, shapes.B, loads, options.keep.tolerance.value());
   ResponseSizes sizes = response_sizes(reference, *options.keep.tolerance);
   sizes.names = loads.names;
   for (const int dof : loads.dofs) sizes.rows.push_back(master_of(reduced, dof));
