@@ -155,7 +155,7 @@ std::vector<ModesOfHarmonic> modes_up_to(const SupportedSector& sector, double o
     return lie_above(sector, order, omega) ? ModesOfHarmonic{.order = order} : some(order);
   });
   // The lowest of all harmonics is asked for even where it lies above.
-  if (std::isinf(lowest_of(own))) own = of_own_harmonics(sector.model.dofs.count, some);
+  if (lowest_of(own) > omega) own = of_own_harmonics(sector.model.dofs.count, some);
   leave_out_above(own, std::max(omega, lowest_of(own)));
   return own;
 }

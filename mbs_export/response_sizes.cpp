@@ -65,7 +65,7 @@ struct Shapes {
   MatrixXd B;      ///< [n x m]
 };
 
-/// Without rigid-body motions one eigenproblem is enough.
+/// Without rigid-body motions, and where masters are held, one eigenproblem is enough.
 Shapes shapes_at(const ReducedSystem& reduced, const std::vector<std::string>& fixed,
                  const std::vector<int>& dofs)
 {

@@ -23,8 +23,8 @@ struct GrowingBasis {
 /// r^T K_ss^-1 r = x_q^T K_qq x_q - 2 s x_q^T (M_qm x_m + M_qq x_q) + s^2 x^T H x.
 class ResidualForms {
  public:
-  /// What `basis` refers to must outlive this object. Half a solution for each moving master and
-  /// each of n_CB columns, which stay in memory.
+  /// What `basis` refers to must outlive this object. With our own factor half a solution for each
+  /// moving master and each of n_CB columns, which stay in memory.
   /// @note   Collective, as are all members.
   explicit ResidualForms(const GrowingBasis& basis);
 

@@ -66,14 +66,16 @@ ResponseLoads loads_everywhere(const ResponseGoal& goal, const ReducedModel& mod
   return loads;
 }
 
-/// Without what couples coordinates so weakly that no response shows it: modes of the whole body
-/// have a share of round-off in all its parts.
-MatrixXd coupling(const MatrixXd& A)
+/// Without what couples masters and modes by round-off: modes of the whole body have a share of it
+/// in all its parts.
+MatrixXd coupling(const MatrixXd& A, Index n_masters)
 {
   constexpr double weak = 1e-10;
   const VectorXd root = A.diagonal().cwiseAbs().cwiseSqrt();
   const MatrixXd least = weak * root * root.transpose();
-  return (A.array().abs() > least.array()).select(A, 0.0);
+  MatrixXd clear = (A.array().abs() > least.array()).select(A, 0.0);
+  clear.topLeftCorner(n_masters, n_masters) = A.topLeftCorner(n_masters, n_masters);
+  return clear;
 }
 
 /// The masters that no load moves, ascending: those that are held, and those that are not coupled
@@ -82,7 +84,8 @@ std::vector<int> still_masters(const ReducedModel& model, const MatrixXd& F,
                                const std::vector<int>& held, MPI_Comm comm)
 {
   std::vector<int> moves(std::size_t(model.n_masters), 0);
-  for (const auto& set : linear::decoupled_coordinates(coupling(model.K), coupling(model.M))) {
+  for (const auto& set : linear::decoupled_coordinates(coupling(model.K, model.n_masters),
+                                                       coupling(model.M, model.n_masters))) {
     const bool is_loaded = std::ranges::any_of(
         set, [&](Index i) { return i < F.rows() && (F.row(i).array() != 0.0).any(); });
     for (const Index i : set)
@@ -96,12 +99,12 @@ std::vector<int> still_masters(const ReducedModel& model, const MatrixXd& F,
   return still;
 }
 
-/// The combinations of loads whose errors are more than a third of what is allowed, such that the
+/// The combinations of loads whose errors are more than a tenth of what is allowed, such that the
 /// shapes of their residuals are K-orthonormal.
 /// @param allowed  [l] errors
 MatrixXd combinations_above(const MatrixXd& G, const VectorXd& allowed, double c)
 {
-  constexpr double share = 0.3;
+  constexpr double share = 0.1;
   const VectorXd unit = allowed.cwiseSqrt().cwiseInverse();
   const MatrixXd relative = unit.asDiagonal() * G * unit.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> errors(relative);

@@ -54,7 +54,8 @@ def in_image(folder):
         code, printed, seconds = timed(*run, folder=folder)
         if not code and not (folder / "out/disc.body.h5").exists():
             raise SystemExit("the example ended well but left no out/disc.body.h5")
-        return code, lines + on_system.outcome(EXAMPLE + "` in it leaves `out/disc.body.h5", code, printed, seconds)
+        left = "` in it" if code else "` in it leaves `out/disc.body.h5"
+        return code, lines + on_system.outcome(EXAMPLE + left, code, printed, seconds)
     finally:
         buildah("rm", container)
 

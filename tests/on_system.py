@@ -1,8 +1,8 @@
 """`./dev test` and `./dev demo` on another Debian: a bare system in a folder and the committed files; as root. Adds a
-section of that system to a page, in place of an earlier one.
+section of that system to a page, in place of an earlier one; with one of the commands alone, the line of the other stays.
 
-Usage: on_system.py SUITE PAGE.md [FOLDER]. Called by `./dev test-on SUITE`. The system stays in FOLDER
-(/var/tmp/chladni-SUITE), so that a second call needs no download.
+Usage: on_system.py SUITE PAGE.md [test | demo]. Called by `./dev test-on SUITE`. The system stays in /var/tmp/chladni-SUITE,
+so that a second call needs no download.
 """
 
 import os
@@ -18,6 +18,7 @@ MIRROR = "http://deb.debian.org/debian"
 MOUNTED = ("proc", "sys", "dev")
 PACKAGES = ("g++", "cmake", "libpetsc-real-dev", "libslepc-real-dev", "libmumps-dev", "libgmsh-dev", "libhdf5-dev",
             "libeigen3-dev", "libopenmpi-dev")  # fmt: skip
+COMMANDS = ("./dev test", "./dev demo")
 SHOWN = 12  # last lines of a command that failed
 HEAD = ["# Systems", "",
         "Written by `./dev test-on SUITE`: a bare Debian in a folder (debootstrap), then `./dev test` and `./dev demo` of the "
@@ -37,8 +38,6 @@ def bare_system(suite, folder):
     script = [] if (scripts / suite).exists() else [str(scripts / "sid")]  # a suite that is newer than debootstrap
     call("debootstrap", "--variant=minbase", suite, str(folder), MIRROR, *script, stdout=subprocess.DEVNULL)
     (folder / "etc/apt/sources.list").write_text(f"deb {MIRROR} {suite} main\n")
-    # The list of a testing Debian is valid for a week; a mirror that is behind is still a system to try.
-    (folder / "etc/apt/apt.conf.d/99-mirror").write_text('Acquire::Check-Valid-Until "false";\n')
 
 
 @contextmanager
@@ -46,6 +45,8 @@ def mounted(folder):
     """With what programs expect of a kernel, and the network of this machine."""
     for name in ("resolv.conf", "hosts"):
         (folder / "etc" / name).write_text(Path("/etc", name).read_text())
+    # The list of a testing Debian is valid for a week; a mirror that is behind is still a system to try.
+    (folder / "etc/apt/apt.conf.d/99-mirror").write_text('Acquire::Check-Valid-Until "false";\n')
     made = []
     try:
         for name in MOUNTED:
@@ -84,8 +85,8 @@ def versions(folder):
     return dict(line.split(" ", 1) for line in printed.splitlines() if line.count(" ") == 1)
 
 
-def outcome(command, code, printed, seconds):
-    """Lines of the page."""
+def outcome(command, code, printed, seconds, where=""):
+    """Lines of the page, `where` behind the command."""
     tests = re.findall(r"(\d+)% tests passed, (\d+) tests failed out of (\d+)", printed)
     warnings = len(re.findall(r": warning: ", printed))
     packages = re.search(r"^== build: .*\[(\d+) s\]", printed, re.M)
@@ -96,7 +97,7 @@ def outcome(command, code, printed, seconds):
     if not command.endswith("test"):  # whose compiler is told to be silent
         facts.append(f"{warnings} warnings")
     facts += [f"{failed} of {total} tests failed" for _, failed, total in tests]
-    lines = [f"`{command}`: {', '.join(facts)}.", ""]
+    lines = [f"`{command}`{where}: {', '.join(facts)}.", ""]
     failed = re.findall(r"^\s*\d+ - (\S+ \((?!Skipped).*\))", printed, re.M)
     if failed:
         lines += ["Failed: " + ", ".join(failed) + ".", ""]
@@ -105,21 +106,31 @@ def outcome(command, code, printed, seconds):
     return lines
 
 
-def section(suite, folder):
+def earlier(page, suite, command):
+    """What the page says of a command on that system: nothing where it does not."""
+    own = re.search(rf"(?ms)^## {suite}$(.*?)(?=^## |\Z)", page.read_text() if page.exists() else "")
+    said = own and re.search(rf"(?ms)^`{re.escape(command)}`.*?(?=^`\./dev |\Z)", own[1])
+    return [*said[0].strip().splitlines(), ""] if said else []
+
+
+def section(suite, folder, page, commands):
     """The exit code of the last command, and the lines of the page."""
     lines, code = [], 0
-    for command in ("./dev test", "./dev demo"):
+    commit = commit_of(folder / "root/chladni")
+    for command in COMMANDS:
+        if command not in commands:
+            lines += earlier(page, suite, command)
+            continue
         code, printed, seconds = inside(folder, command)
         (folder / "root" / (command.split()[-1] + ".log")).write_text(printed)
         print(f"{seconds:8.0f} s  {code}  {command}", flush=True)
-        lines += outcome(command, code, printed, seconds)
-        if code:
+        lines += outcome(command, code, printed, seconds, f", commit {commit}, {time.strftime('%Y-%m-%d')}")
+        if code and len(commands) > 1:
             break
-    commit = commit_of(folder / "root/chladni")
     debian = (folder / "etc/debian_version").read_text().strip()
     table = ["| package | version |", "| --- | --- |", *(f"| {name} | {version} |" for name, version in versions(folder).items())]
     return code, [f"## {suite}", "",
-                  f"Debian {debian}, commit {commit}, {time.strftime('%Y-%m-%d')}, {os.cpu_count()} cores.", "", *table, "",
+                  f"Debian {debian}, {os.cpu_count()} cores.", "", *table, "",
                   *lines]  # fmt: skip
 
 
@@ -131,13 +142,16 @@ def with_section(page, suite, lines):
     return "\n".join(HEAD) + "\n" + "\n\n".join(kept[name] for name in sorted(kept)) + "\n"
 
 
-def main(suite, page, folder=None):
-    folder = Path(folder or f"/var/tmp/chladni-{suite}")
+def main(suite, page, command=None):
+    folder, page = Path(f"/var/tmp/chladni-{suite}"), Path(page)
+    commands = [f"./dev {command}"] if command else COMMANDS
+    if not set(commands) <= set(COMMANDS):
+        sys.exit(f"on_system.py: tests and demos are tried, not '{command}'; give 'test' or 'demo', or nothing for both")
     bare_system(suite, folder)
     with mounted(folder):
         committed_files(folder)
-        code, lines = section(suite, folder)
-    Path(page).write_text(with_section(Path(page), suite, lines))
+        code, lines = section(suite, folder, page, commands)
+    page.write_text(with_section(page, suite, lines))
     sys.exit(code)
 
 

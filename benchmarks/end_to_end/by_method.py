@@ -63,5 +63,5 @@ def study(frontier, case):
     found = [*on_mesh(frontier, case, middle, METHODS, exact)]
     for size in (coarse, fine):
         found += on_mesh(frontier, case, size, ["mixed-interface"], exact)
-    return {"up_to_Hz": case["up_to_Hz"], "modes_in_range": len(exact), "runs": found,
+    return {"up_to_Hz": case["up_to_Hz"], "modes_in_range": len(exact), "masters": found[0]["size"] - found[0]["modes"], "runs": found,
             "by_accuracy": [*by_accuracy(frontier, case, exact)]}

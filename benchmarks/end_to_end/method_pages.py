@@ -5,7 +5,7 @@ ABOUT = """## Speed against error of the methods
 {name} up to {up_to_Hz:g} Hz, its hub held: the largest error of the {modes_in_range} frequencies of the range by rank, against the FE model of the same mesh and
 against the exact Mindlin plate, whose difference is the mesh's. No method is better against the exact plate than its mesh; below that, more modes buy nothing.
 Cost: CPU seconds of all phases from the mesh to the reduced system, of one run; with `accuracy` those of the search for the mesh, too. Coordinates are those of the reduced
-system, of which 366 are the masters. Dotted in the figure: other meshes.
+system, of which {masters} are the masters. Dotted in the figure: other meshes.
 
 ![Error over cost and over coordinates, against the FE model and the exact plate](figures/method_frontier.png)
 """

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <set>
 
+#include "common/eigen_every.hpp"
 #include "common/error.hpp"
 
 namespace chladni::mbs_export::formats {
@@ -180,7 +181,7 @@ FmuBody fmu_body(const ModalBody& body, const std::vector<std::string>& sets)
     }
   }
   if (rows.empty()) throw Error("the body moves at none of these attachment nodes");
-  made.model.Phi = body.attachment_modes(rows, Eigen::all);
+  made.model.Phi = body.attachment_modes(rows, every);
   return made;
 }
 

@@ -42,8 +42,9 @@ VectorXd element_displacements(const LoadedElement& of, const NodeVectors& arms)
   VectorXd u_e(6 * std::ssize(nodes));
   for (Index i = 0; i < std::ssize(nodes); ++i) {
     u_e.segment<6>(6 * i) = of.motions.row(nodes[i]).transpose();
-    if (arms.size() > 0)
-      u_e.segment<3>(6 * i) += u_e.segment<3>(6 * i + 3).cross(arms.row(i).transpose());
+    if (arms.size() == 0) continue;
+    const Eigen::Vector3d arm = arms.row(i);
+    u_e.segment<3>(6 * i) += u_e.segment<3>(6 * i + 3).cross(arm);
   }
   return u_e;
 }

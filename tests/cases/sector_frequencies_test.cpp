@@ -147,6 +147,25 @@ TEST(SectorFrequencies, OfAHeldDiscAreThoseOfTheWhole)
   expect_same(held(annulus(0.03)), 6000.0);
 }
 
+/// The first harmonics of a free body have rigid motions, and its lowest elastic mode is another's.
+TEST(SectorFrequencies, OfARangeBelowTheLowestAreTheLowest)
+{
+  for (const scene::Scene& scene : {annulus(0.03), held(annulus(0.03))}) {
+    const mesh::Mesh mesh = mesh_on_all_ranks(scene);
+    const auto sector = SectorFrequencies::find(scene, mesh);
+    ASSERT_TRUE(sector.has_value());
+    const SupportedModel whole = assemble_supported(scene, mesh);
+    const int n_rigid = plate::n_free_motions(whole.free);
+    const reduce::NaturalModes modes = reduce::natural_modes(
+        whole.system.K, whole.system.M, reduce::free_dofs(whole.system.K, whole.held),
+        {.n_modes = n_rigid + 1, .n_rigid = n_rigid});
+    const double lowest = std::sqrt(modes.lambda[std::size_t(n_rigid)]);
+    const Eigen::VectorXd omega = sector->up_to(0.5 * lowest, {});
+    ASSERT_GE(omega.size(), 1);
+    EXPECT_LT((omega.array() / lowest - 1.0).abs().maxCoeff(), 1e-8);
+  }
+}
+
 TEST(SectorFrequencies, OfAFreeHatAreThoseOfTheWhole)
 {
   expect_same(hat(), 6000.0);

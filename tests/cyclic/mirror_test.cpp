@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "common/eigen_every.hpp"
 #include "cyclic/harmonic_modes.hpp"
 #include "cyclic/symmetric_half.hpp"
 #include "linear/dense/dense_solvers.hpp"
@@ -193,10 +194,10 @@ TEST(SymmetricHalf, MovesTheSectorAsTheWholeHarmonicDoes)
   for (const Master& master : c.masters) whole_rows.push_back(master.coordinate);
   for (const Master& master : half.masters) half_rows.push_back(master.coordinate);
   const SectorMotion motion = unfolded_motion(
-      {.x = MatrixXd(half.X)(Eigen::all, half_rows), .y = MatrixXd(half.Y)(Eigen::all, half_rows)},
+      {.x = MatrixXd(half.X)(every, half_rows), .y = MatrixXd(half.Y)(every, half_rows)},
       master_halves(c, half));
-  EXPECT_LT((motion.x - MatrixXd(c.X)(Eigen::all, whole_rows)).norm(), 1e-14);
-  EXPECT_LT((motion.y - MatrixXd(c.Y)(Eigen::all, whole_rows)).norm(), 1e-14);
+  EXPECT_LT((motion.x - MatrixXd(c.X)(every, whole_rows)).norm(), 1e-14);
+  EXPECT_LT((motion.y - MatrixXd(c.Y)(every, whole_rows)).norm(), 1e-14);
 }
 
 }  // namespace
