@@ -53,16 +53,18 @@ reduce::ReductionOptions options_of(const scene::Scene& scene, const linear::Sol
   // the slaves.
   constexpr double moving_rows = 0.4, block = 64.0;
   constexpr reduce::WorkAfterwards in_integrals{.columns = block * (1.0 + moving_rows),
-                                                .columns_for_each_kept = moving_rows,
+                                                .of_a_part_for_each_kept = moving_rows,
                                                 .matrices = 2.0};
   const bool projects = scene.mass_integrals || !scene.stiffening.empty();
   reduce::WorkAfterwards later = projects ? in_integrals : reduce::WorkAfterwards{};
   if (may_keep_responses(scene)) {
-    // K_ss^-1 of the inertia of each column, and blocks of these; for each load, which are one
-    // direction of the nodes, a shape, its part in the basis, its products with K and M, K_ss^-1.
+    // Half a solution for the inertia of each column that the loads move, and blocks of these; for
+    // each load, which are one direction of the nodes, a shape, its part in the basis, its products
+    // with K and M, K_ss^-1.
     constexpr double blocks = 2.0, for_each_load = 5.0, loads = 1.0 / 6.0;
     later.columns = std::max(later.columns, blocks * block);
-    later.columns_for_each_kept = 1.0 + for_each_load * loads;
+    later.of_a_part_for_each_kept = 1.0;
+    later.columns_for_each_kept = for_each_load * loads;
   }
   return {.basis = scene.reduce,
           .solver = solver,

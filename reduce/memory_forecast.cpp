@@ -102,10 +102,10 @@ double MemoryForecast::beside_MiB(double n_modes) const
       n_modes > 0.0 ? there + basis + n_modes + of_parts + blocks_of_lanczos : 0.0;
   const double kept = n_masters_ + n_modes;
   const WorkAfterwards& later = options_.later;
-  // Some rows of each column: forms, which take the columns of a part by themselves.
-  const double columns = kept * (later.columns_for_each_kept < 1.0 ? largest_part_ : 1.0);
-  const double later_MiB = column_MiB_ * (later.columns + later.columns_for_each_kept * columns) +
-                           M_MiB_ * later.matrices;
+  const double for_each =
+      later.columns_for_each_kept + largest_part_ * later.of_a_part_for_each_kept;
+  const double later_MiB =
+      column_MiB_ * (later.columns + for_each * kept) + M_MiB_ * later.matrices;
   return std::max(column_MiB_ * in_search + mass_of_parts_ +
                       (options_.basis.tolerance ? trials_MiB(kept) : 0.0),
                   column_MiB_ * kept +

@@ -33,7 +33,9 @@ struct Body {
 struct WorkAfterwards {
   double columns = 0.0;                ///< number of vectors as long as a column of Psi
   double columns_for_each_kept = 0.0;  ///< the same for each master and each mode
-  double matrices = 0.0;               ///< number of matrices as large as M
+  /// the same, where the largest part that K and M do not couple with others is worked on by itself
+  double of_a_part_for_each_kept = 0.0;
+  double matrices = 0.0;  ///< number of matrices as large as M
 };
 
 /// How a body is reduced.
