@@ -20,11 +20,20 @@ namespace chladni::cli {
 
 namespace {
 
+bool is_started_by_mpirun()
+{
+  constexpr std::array<const char*, 4> ranks{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK",
+                                             "SLURM_PROCID"};
+  return std::ranges::any_of(ranks, [](const char* rank) { return std::getenv(rank) != nullptr; });
+}
+
 /// Open MPI starts a daemon for a process that no mpirun started, and leaves it behind when that
-/// process is killed. One process needs none.
+/// process is killed. One process needs none. It makes a folder for those of a user, too, which one
+/// process may remove while another begins, and which nobody needs who shares no memory.
 void start_no_daemon()
 {
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  if (!is_started_by_mpirun()) setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
 }
 
 /// How options begin that PETSc reads when it ends.

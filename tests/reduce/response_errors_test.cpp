@@ -124,6 +124,27 @@ TEST(ResidualForms, GrowWithTheBasis)
   EXPECT_LT((grown - G).norm(), 1e-9 * X.norm());
 }
 
+TEST(ResidualForms, NeedNoMastersThatStandStill)
+{
+  LoadedChain loaded, same, still;
+  const double s = 0.5 * loaded.modes.lambda_left_out;
+  GrowingBasis of_some = same.growing(), of_none = still.growing();
+  of_some.moving = {1, 2};
+  of_none.moving.emplace();
+  ResidualForms all(loaded.growing()), some(of_some);
+  const MatrixXd X = loaded.responses(std::sqrt(s)), G = all.energy(X, s);
+  EXPECT_LT((some.energy(X, s) - G).norm(), 1e-14 * X.squaredNorm());  // a difference of energies
+  all.append(all.shapes(X, s));
+  some.append(some.shapes(X, s));
+  const MatrixXd Y = loaded.responses(0.8 * std::sqrt(s)), H = all.energy(Y, 0.64 * s);
+  EXPECT_LT((some.energy(Y, 0.64 * s) - H).norm(), 1e-9 * Y.norm());
+  MatrixXd in_modes = X;
+  in_modes.topRows(3).setZero();
+  const MatrixXd of_modes = ResidualForms(still.growing()).energy(in_modes, s);
+  EXPECT_LT((ResidualForms(of_none).energy(in_modes, s) - of_modes).norm(),
+            1e-13 * of_modes.norm());
+}
+
 /// Errors relative to the static response.
 ResponseGoal goal_of(const LoadedChain& loaded, double tolerance)
 {
