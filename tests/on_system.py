@@ -19,6 +19,7 @@ MOUNTED = ("proc", "sys", "dev")
 PACKAGES = ("g++", "cmake", "libpetsc-real-dev", "libslepc-real-dev", "libmumps-dev", "libgmsh-dev", "libhdf5-dev",
             "libeigen3-dev", "libopenmpi-dev")  # fmt: skip
 COMMANDS = ("./dev test", "./dev demo")
+WIDTH = 200  # of lines of compilers
 SHOWN = 12  # last lines of a command that failed
 HEAD = ["# Systems", "",
         "Written by `./dev test-on SUITE`: a bare Debian in a folder (debootstrap), then `./dev test` and `./dev demo` of the "
@@ -102,7 +103,8 @@ def outcome(command, code, printed, seconds, where=""):
     if failed:
         lines += ["Failed: " + ", ".join(failed) + ".", ""]
     if code:
-        lines += ["```text", *printed.strip().splitlines()[-SHOWN:], "```", ""]
+        ends = [line.replace("/root/chladni/", "")[:WIDTH] for line in printed.strip().splitlines()[-SHOWN:]]
+        lines += ["```text", *ends, "```", ""]
     return lines
 
 
