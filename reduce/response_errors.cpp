@@ -99,16 +99,29 @@ std::vector<int> still_masters(const ReducedModel& model, const MatrixXd& F,
   return still;
 }
 
-/// The combinations of loads whose errors are more than a tenth of what is allowed, such that the
-/// shapes of their residuals are K-orthonormal.
+/// How many of the errors, ascending, are to go: those above three tenths of what is allowed, or of
+/// the largest where all are allowed; the two of a pair of a round body, which differ by its mesh,
+/// together.
+Index n_to_remove(const VectorXd& errors)
+{
+  constexpr double share = 0.3, same = 0.95;
+  const double limit = share * std::min(1.0, errors.maxCoeff());
+  Index first = errors.size();
+  while (first > 0 && errors[first - 1] > limit) --first;
+  const bool divides_pair =
+      first > 0 && first < errors.size() && errors[first - 1] > same * errors[first];
+  return errors.size() - (divides_pair ? first - 1 : first);
+}
+
+/// The combinations of loads whose errors are to go, such that the shapes of their residuals are
+/// K-orthonormal.
 /// @param allowed  [l] errors
 MatrixXd combinations_above(const MatrixXd& G, const VectorXd& allowed, double c)
 {
-  constexpr double share = 0.1;
   const VectorXd unit = allowed.cwiseSqrt().cwiseInverse();
   const MatrixXd relative = unit.asDiagonal() * G * unit.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> errors(relative);
-  const Index n = (c * errors.eigenvalues().array() > share).count();
+  const Index n = n_to_remove(c * errors.eigenvalues());
   const VectorXd lengths = errors.eigenvalues().tail(n).cwiseSqrt();
   return unit.asDiagonal() * errors.eigenvectors().rightCols(n) *
          lengths.cwiseInverse().asDiagonal();

@@ -167,6 +167,12 @@ std::vector<std::string> notes_of(const Disc& disc)
         disc.rings.front().V_r.cosine.size() > 0 ? "" : " along the axis",
         fmt::join(disc.still, ", ")));
   }
+  if (!disc.alternating.empty()) {
+    notes.push_back(fmt::format(
+        "{} of the body's modes, whose sign changes from node to node of the ring, which shows one "
+        "of such a pair only, take no part: {}",
+        disc.alternating.size(), fmt::join(disc.alternating, ", ")));
+  }
   return notes;
 }
 
@@ -211,6 +217,7 @@ Disc make_disc(const ModalBody& body, const RingChoice& rings, const ModeChoice&
   if (!parts.quasi_static.empty())
     disc.compliance = ring_compliance(with_modes(all, parts.quasi_static));
   disc.still = parts.still;
+  disc.alternating = parts.alternating;
   const std::vector<ModeFigure> figures = mode_figures(body, nodal_diameters(all));
   for (const int i : parts.dynamic) disc.figures.push_back(figures[static_cast<std::size_t>(i)]);
   return disc;

@@ -55,6 +55,9 @@ struct Disc {
   double range = std::numeric_limits<double>::infinity();
   /// 1-based numbers of modes left out because they do not move the pads.
   std::vector<int> still = {};
+  /// 1-based numbers of modes left out because their sign changes from node to node of the rings,
+  /// which show one of the two modes of such a pair only.
+  std::vector<int> alternating = {};
   ModeErrors errors = {};
   std::vector<ModeFigure> figures = {};  ///< [n_modes]; empty if unknown
   bool keeps_asymmetry = false;          ///< see SquealOptions
@@ -63,7 +66,8 @@ struct Disc {
 };
 
 /// The disc of `body` with these contact rings. Without a choice of modes, or with a choice by
-/// nodal diameters, modes that do not move the rings axially are left out. Without a choice, modes
+/// nodal diameters, modes that do not move the rings axially are left out, and those whose sign
+/// changes from node to node. Without a choice, modes
 /// above `ModeChoice::quasi_static_above` contribute their compliance only; if that is absent, this
 /// holds for interface modes beyond the body's range. Such modes represent the static response of
 /// all modes beyond the range, at frequencies that the disc does not have. Other modes keep their

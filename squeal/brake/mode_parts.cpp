@@ -29,24 +29,46 @@ Eigen::MatrixXd ring_motion(const Disc& disc)
   return ring_harmonics(disc.rings).squares_by_harmonic();
 }
 
-/// 0-based modes that move the ring along the axis.
-std::vector<int> moving_modes(const Disc& disc)
+/// [n_modes] squared amplitudes of harmonic n / 2 on rings of an even number n of nodes.
+Eigen::VectorXd alternating_motion(const Disc& disc)
 {
-  const Eigen::VectorXd motion = ring_motion(disc).colwise().sum().transpose().cwiseSqrt();
-  std::vector<int> modes;
-  for (int i = 0; i < motion.size(); ++i)
-    if (motion[i] > still_limit * motion.maxCoeff()) modes.push_back(i);
-  return modes;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(disc.n_modes());
+  for (const DiscRing& ring : disc.rings)
+    for (const auto& [f, scale] : functions_of(ring))
+      for (Eigen::Index d = ring.n_whole_harmonics(); d < f->cosine.rows(); ++d) {
+        sum +=
+            scale * scale * (f->cosine.row(d).cwiseAbs2() + f->sine.row(d).cwiseAbs2()).transpose();
+      }
+  return sum;
 }
 
-/// 1-based, of the others.
-std::vector<int> still_modes(const Disc& disc)
-{
-  const std::vector<int> moving = moving_modes(disc);
+/// What the modes do to the rings, 0-based and ascending.
+struct Motions {
+  std::vector<int> moving;  ///< along the axis
+  std::vector<int>
+      alternating;  ///< most of it with harmonic n / 2, of which n nodes show one phase
   std::vector<int> still;
-  for (int i = 0; i < disc.n_modes(); ++i)
-    if (!std::ranges::binary_search(moving, i)) still.push_back(i + 1);
-  return still;
+};
+
+Motions motions_of(const Disc& disc)
+{
+  const Eigen::VectorXd whole = ring_motion(disc).colwise().sum().transpose();
+  const Eigen::VectorXd alternating = alternating_motion(disc);
+  const double limit = still_limit * still_limit * whole.maxCoeff();
+  Motions motions;
+  for (int i = 0; i < disc.n_modes(); ++i) {
+    (std::max(whole[i], alternating[i]) <= limit ? motions.still
+     : alternating[i] > whole[i]                 ? motions.alternating
+                                                 : motions.moving)
+        .push_back(i);
+  }
+  return motions;
+}
+
+std::vector<int> counted_from_one(std::vector<int> modes)
+{
+  for (int& i : modes) ++i;
+  return modes;
 }
 
 std::vector<int> modes_with_nodal_diameters(const Disc& disc, int n)
@@ -54,7 +76,7 @@ std::vector<int> modes_with_nodal_diameters(const Disc& disc, int n)
   const std::vector<int> diameters = nodal_diameters(disc);
   const std::size_t wanted = n == 0 ? 1 : 2;
   std::vector<int> modes;
-  for (const int i : moving_modes(disc))
+  for (const int i : motions_of(disc).moving)
     if (diameters[i] == n && modes.size() < wanted) modes.push_back(i);
   if (modes.size() < wanted) {
     throw Error(
@@ -67,15 +89,21 @@ std::vector<int> modes_with_nodal_diameters(const Disc& disc, int n)
 
 std::vector<int> listed_modes(const Disc& disc, const std::vector<int>& numbers)
 {
-  const std::vector<int> moving = moving_modes(disc);
+  const Motions motions = motions_of(disc);
   std::vector<int> modes;
   for (const int number : numbers) {
     if (number < 1 || number > disc.n_modes()) {
       throw Error(fmt::format("use_modes: there is no mode {}; the body has modes 1 to {}", number,
                               disc.n_modes()));
     }
-    if (std::ranges::find(moving, number - 1) == moving.end())
+    if (std::ranges::binary_search(motions.still, number - 1))
       throw Error(fmt::format("use_modes: mode {} does not move the ring along the axis", number));
+    if (std::ranges::binary_search(motions.alternating, number - 1)) {
+      throw Error(fmt::format(
+          "use_modes: mode {} changes its sign from node to node of the ring, which shows one mode "
+          "of such a pair only; choose other modes, or reduce the disc with more nodes on the ring",
+          number));
+    }
     modes.push_back(number - 1);
   }
   std::ranges::sort(modes);
@@ -96,11 +124,13 @@ ModeParts parts_of_all(const Disc& disc, const ModalBody& body, const ModeChoice
 {
   ModeParts parts;
   const double limit = choice.quasi_static_above.value_or(range_of(body));
-  for (const int i : moving_modes(disc)) {
+  const Motions motions = motions_of(disc);
+  for (const int i : motions.moving) {
     const bool may = choice.quasi_static_above || kind_of(body, i) == ModeKind::interface;
     (may && disc.omega[i] > limit ? parts.quasi_static : parts.dynamic).push_back(i);
   }
-  parts.still = still_modes(disc);
+  parts.still = counted_from_one(motions.still);
+  parts.alternating = counted_from_one(motions.alternating);
   if (parts.dynamic.empty()) {
     throw Error(
         fmt::format("quasi_static_above_Hz: {:.6g} Hz leaves no mode with inertia; the lowest mode "

@@ -13,6 +13,8 @@ struct ModeParts {
   std::vector<int> dynamic;       ///< 0-based, with stiffness and inertia
   std::vector<int> quasi_static;  ///< 0-based, with their compliance only
   std::vector<int> still;         ///< 1-based, left out because they do not move the pads
+  /// 1-based, left out because they move the rings with harmonic n / 2 of their n nodes
+  std::vector<int> alternating;
 };
 
 /// Upper end of the frequency range for which a body with interface modes was made, rad/s: the

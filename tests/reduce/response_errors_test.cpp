@@ -177,6 +177,23 @@ TEST(ResponseErrors, AreKeptBelowATolerance)
   }
 }
 
+TEST(ResponseErrors, AreKeptOfLoadsOfDifferentKinds)
+{
+  // Moments beside forces: the errors that one is allowed are large for the other's bound.
+  for (const double ratio : {1e-4, 1e4, 1e8}) {
+    LoadedChain loaded;
+    ResponseGoal goal = goal_of(loaded, 1e-6);
+    goal.loads = [loads = goal.loads(loaded.model), ratio](const ReducedModel&) {
+      ResponseLoads unlike = loads;
+      unlike.size.row(1) *= ratio;
+      return unlike;
+    };
+    const ResponseCertificate found = keep_responses(
+        loaded.body, {loaded.Q, loaded.model}, loaded.held, loaded.modes.lambda_left_out, goal);
+    EXPECT_LE(found.error, 1e-6) << ratio;
+  }
+}
+
 TEST(ResponseErrors, NeedTheModesOfTheRange)
 {
   LoadedChain loaded;
