@@ -16,7 +16,9 @@ void Phases::begun(const std::string& name)
 
 void Phases::ended()
 {
-  linear::give_back_freed();  // is there for the next one
+  // A page that is given back is cleared anew when the next phase touches it.
+  constexpr double worth_it_MiB = 256.0;
+  if (linear::freed_MiB() > worth_it_MiB) linear::give_back_freed();
   listener_.reset();
   clock_.end_phase(name_);
   if (progress_) progress_(name_, 1.0);

@@ -40,6 +40,11 @@ void give_back_freed()
   malloc_trim(0);
 }
 
+double freed_MiB()
+{
+  return static_cast<double>(mallinfo2().fordblks) / (1024.0 * 1024.0);
+}
+
 MemoryNeed tightest_machine(double own_MiB, double free_MiB, MPI_Comm comm)
 {
   std::array<double, 2> need{sum_on_machine(own_MiB, comm), free_MiB};

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "linear/kernels/orthonormalisation.hpp"
+#include "linear/kernels/part_traces.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "linear/kernels/symmetric_eigen.hpp"
@@ -87,6 +88,7 @@ ElasticPairs elastic_pairs(const WholeSystem& body, const Flexibility& flexibili
     if (n_complete < n_found) found.lambda_left_out = pairs.lambda[std::size_t(n_complete)];
     pairs.lambda.resize(n_complete);
     pairs.X = lanczos.vectors(0, n_complete);
+    linear::clear_part_traces(body.K, body.M, pairs.X);
     return found;
   }
 }

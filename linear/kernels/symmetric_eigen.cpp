@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "common/eigen_every.hpp"
+#include "linear/dense/decoupled_coordinates.hpp"
 #include "linear/kernels/small_matrices.hpp"
 
 // LAPACK's symbol: PETSc declares dsyev only, which is several times slower with vectors.
@@ -111,21 +112,28 @@ bool decouple(const Grading& rows, MatrixXd& A, MatrixXd& V)
   return ended;
 }
 
-/// The pairs of the two blocks in ascending order.
-SymmetricEigen merged(const SymmetricEigen& a, const SymmetricEigen& b)
+/// Ascending, those of equal value in their order.
+SymmetricEigen sorted(SymmetricEigen all)
 {
-  const auto n_a = static_cast<PetscInt>(a.values.size());
-  const auto n = n_a + static_cast<PetscInt>(b.values.size());
-  std::vector<PetscInt> order(n);
+  std::vector<PetscInt> order(all.values.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto value = [&](PetscInt i) { return i < n_a ? a.values[i] : b.values[i - n_a]; };
-  std::ranges::stable_sort(order, std::less<>(), value);
-  SymmetricEigen all{.values = {}, .vectors = MatrixXd(n, n)};
-  for (PetscInt k = 0; k < n; ++k) {
-    all.values.push_back(value(order[k]));
-    all.vectors.col(k) = order[k] < n_a ? a.vectors.col(order[k]) : b.vectors.col(order[k] - n_a);
+  std::ranges::stable_sort(order, std::less<>(), [&](PetscInt i) { return all.values[i]; });
+  std::vector<double> values;
+  for (const PetscInt i : order) values.push_back(all.values[i]);
+  return {.values = std::move(values), .vectors = all.vectors(every, order)};
+}
+
+/// Of sets of rows that A does not couple, each by itself: no vector has round-off in another set.
+SymmetricEigen set_by_set(const MatrixXd& A, const std::vector<std::vector<Eigen::Index>>& sets)
+{
+  SymmetricEigen all{.values = {}, .vectors = MatrixXd::Zero(A.rows(), A.cols())};
+  for (const std::vector<Eigen::Index>& set : sets) {
+    const SymmetricEigen own = symmetric_eigen(A(set, set));
+    const auto first = static_cast<Eigen::Index>(all.values.size());
+    all.vectors(set, Eigen::seqN(first, own.vectors.cols())) = own.vectors;
+    all.values.insert(all.values.end(), own.values.begin(), own.values.end());
   }
-  return all;
+  return sorted(std::move(all));
 }
 
 }  // namespace
@@ -133,15 +141,18 @@ SymmetricEigen merged(const SymmetricEigen& a, const SymmetricEigen& b)
 SymmetricEigen symmetric_eigen(Eigen::MatrixXd A)
 {
   if (A.rows() == 0) return {};
+  if (const auto sets = decoupled_coordinates(A, A); sets.size() > 1) return set_by_set(A, sets);
   const Grading rows = grading(A);
   if (rows.large.empty()) return by_lapack(std::move(A));
   MatrixXd D = A, V = MatrixXd::Identity(A.rows(), A.rows());
   if (!decouple(rows, D, V)) return by_lapack(std::move(A));
-  SymmetricEigen large = symmetric_eigen(D(rows.large, rows.large));
-  SymmetricEigen small = symmetric_eigen(D(rows.small, rows.small));
-  large.vectors = product(V(every, rows.large), large.vectors);
-  small.vectors = product(V(every, rows.small), small.vectors);
-  return merged(large, small);
+  const SymmetricEigen large = symmetric_eigen(D(rows.large, rows.large));
+  const SymmetricEigen small = symmetric_eigen(D(rows.small, rows.small));
+  SymmetricEigen both{.values = large.values, .vectors = MatrixXd(A.rows(), A.cols())};
+  both.values.insert(both.values.end(), small.values.begin(), small.values.end());
+  both.vectors << product(V(every, rows.large), large.vectors),
+      product(V(every, rows.small), small.vectors);
+  return sorted(std::move(both));
 }
 
 SymmetricEigen symmetric_eigen(Eigen::MatrixXd A, MPI_Comm comm)

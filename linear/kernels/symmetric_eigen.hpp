@@ -13,7 +13,8 @@ struct SymmetricEigen {
 };
 /// The eigenpairs by LAPACK's dsyevd. If a gap separates large diagonal entries from all others, as
 /// with a heavy mass or a shift close to an eigenvalue, the coupling of the small eigenvalues to
-/// the large ones is rotated away first, so that they keep their digits.
+/// the large ones is rotated away first, so that they keep their digits. Sets of rows that A does
+/// not couple are solved apart: vectors of one are zero in the others.
 SymmetricEigen symmetric_eigen(Eigen::MatrixXd A);
 
 /// The eigenpairs, computed by the first rank and sent to the others. Ranks that decide by
