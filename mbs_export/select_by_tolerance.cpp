@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include "common/eigen_every.hpp"
+
 namespace chladni::mbs_export {
 namespace {
 
@@ -51,12 +53,20 @@ double excess(const TrialBasis& basis, double tolerance)
   return (basis.error.array() / tolerance).max(1.0).log().sum();
 }
 
-std::string name_of(const ModeCluster& cluster)
+/// The modes of a body that take part in a choice: those that a load moves, and rigid ones. Modes
+/// in the plane of a disc that is loaded along its normal would be zeros in all that follows.
+struct MovedModes {
+  std::vector<int> of_all;  ///< ascending, 0-based
+  ReferenceResponse reference;
+};
+
+std::string name_of(const MovedModes& modes, const ModeCluster& cluster)
 {
-  if (cluster.end - cluster.first == 1) return fmt::format("mode {}", cluster.end);
-  if (cluster.end - cluster.first == 2)
-    return fmt::format("modes {}, {}", cluster.first + 1, cluster.end);
-  return fmt::format("modes {} to {}", cluster.first + 1, cluster.end);
+  const auto number = [&](int k) { return modes.of_all[std::size_t(k)] + 1; };
+  const int first = number(cluster.first), last = number(cluster.end - 1);
+  if (cluster.end - cluster.first == 1) return fmt::format("mode {}", last);
+  if (cluster.end - cluster.first == 2) return fmt::format("modes {}, {}", first, last);
+  return fmt::format("modes {} to {}", first, last);
 }
 
 std::string name_of(const LoadGroup& group, double Omega_0)
@@ -125,15 +135,16 @@ std::optional<Candidate> interface_candidate(const ReferenceResponse& reference,
   return Candidate{name_of(*group, Omega_0), std::move(larger)};
 }
 
-std::vector<Candidate> candidates(const ReferenceResponse& reference, const TrialBasis& basis,
+std::vector<Candidate> candidates(const MovedModes& modes, const TrialBasis& basis,
                                   std::span<const LoadGroup> groups)
 {
+  const ReferenceResponse& reference = modes.reference;
   const Place worst = worst_place(basis);
   Place lowest{0, 0};
   basis.error.col(0).maxCoeff(&lowest.load);
   std::vector<Candidate> all;
   if (const auto cluster = largest_missing_cluster(reference, basis, worst))
-    all.push_back({name_of(*cluster), with_cluster(reference, basis, *cluster)});
+    all.push_back({name_of(modes, *cluster), with_cluster(reference, basis, *cluster)});
   if (auto candidate = interface_candidate(reference, basis, groups, worst))
     all.push_back(std::move(*candidate));
   if (worst.g != 0)
@@ -143,24 +154,24 @@ std::vector<Candidate> candidates(const ReferenceResponse& reference, const Tria
 }
 
 /// Adds modes until the tolerance is met or none is left.
-Path grow(const ReferenceResponse& reference, Path path, double tolerance)
+Path grow(const MovedModes& modes, Path path, double tolerance)
 {
+  const ReferenceResponse& reference = modes.reference;
   while (path.basis.error.maxCoeff() > tolerance) {
     const auto cluster = largest_missing_cluster(reference, path.basis, worst_place(path.basis));
     if (!cluster) break;
     path.basis = with_cluster(reference, std::move(path.basis), *cluster);
-    path.steps.push_back(step_of(path.basis, name_of(*cluster)));
+    path.steps.push_back(step_of(path.basis, name_of(modes, *cluster)));
   }
   return path;
 }
 
 /// Adds candidates until the tolerance is met or nothing is left to add.
-Path grow(const ReferenceResponse& reference, Path path, std::span<const LoadGroup> groups,
-          double tolerance)
+Path grow(const MovedModes& modes, Path path, std::span<const LoadGroup> groups, double tolerance)
 {
   while (path.basis.error.maxCoeff() > tolerance) {
-    path.basis = with_outputs(reference, std::move(path.basis));
-    std::vector<Candidate> all = candidates(reference, path.basis, groups);
+    path.basis = with_outputs(modes.reference, std::move(path.basis));
+    std::vector<Candidate> all = candidates(modes, path.basis, groups);
     if (all.empty()) break;
     const auto gain = [&](const Candidate& candidate) {
       return (excess(path.basis, tolerance) - excess(candidate.basis, tolerance)) /
@@ -174,17 +185,29 @@ Path grow(const ReferenceResponse& reference, Path path, std::span<const LoadGro
 }
 
 /// Rigid modes and the resonances that the loads excite.
-Path resonant_path(const ReferenceResponse& reference)
+Path resonant_path(const MovedModes& modes)
 {
+  const ReferenceResponse& reference = modes.reference;
   Path path{rigid_basis(reference), {}};
   if (path.basis.n_kept() > 0)
-    path.steps.push_back(step_of(path.basis, name_of(reference.clusters.front())));
+    path.steps.push_back(step_of(path.basis, name_of(modes, reference.clusters.front())));
   for (const int c : reference.resonances) {
     const ModeCluster& cluster = reference.clusters[std::size_t(c)];
     path.basis = with_cluster(reference, std::move(path.basis), cluster);
-    path.steps.push_back(step_of(path.basis, name_of(cluster)));
+    path.steps.push_back(step_of(path.basis, name_of(modes, cluster)));
   }
   return path;
+}
+
+MovedModes moved_modes(const Eigen::VectorXd& omega, const MatrixXd& B, const LoadedDofs& loads,
+                       const Tolerance& tolerance)
+{
+  std::vector<int> moved;
+  for (int k = 0; k < int(omega.size()); ++k)
+    if (omega[k] == 0.0 || !B.row(k).isZero(0.0)) moved.push_back(k);
+  if (moved.empty()) moved.push_back(0);
+  ReferenceResponse reference = reference_response(omega(moved), B(moved, every), loads, tolerance);
+  return {std::move(moved), std::move(reference)};
 }
 
 /// The one that meets the tolerance with fewer modes, else the more accurate one.
@@ -202,10 +225,10 @@ const Path& better(const Path& modes, const Path& mixed, double tolerance)
 ToleranceSelection select_by_tolerance(const Eigen::VectorXd& omega, const MatrixXd& B,
                                        const LoadedDofs& loads, const Tolerance& tolerance)
 {
-  const ReferenceResponse reference = reference_response(omega, B, loads, tolerance);
-  const Path start = resonant_path(reference);
-  const Path modes = grow(reference, start, tolerance.error);
-  const Path mixed = grow(reference, start, loads.groups, tolerance.error);
+  const MovedModes moved = moved_modes(omega, B, loads, tolerance);
+  const Path start = resonant_path(moved);
+  const Path modes = grow(moved, start, tolerance.error);
+  const Path mixed = grow(moved, start, loads.groups, tolerance.error);
   const Path& chosen = better(modes, mixed, tolerance.error);
   ToleranceSelection selection{.kept = {},
                                .neglected = {},
@@ -215,8 +238,11 @@ ToleranceSelection select_by_tolerance(const Eigen::VectorXd& omega, const Matri
                                          .loads = loads.names,
                                          .modes_only = modes.steps,
                                          .with_interface_modes = mixed.steps}};
+  std::vector<char> is_kept(static_cast<std::size_t>(omega.size()), 0);
+  for (std::size_t k = 0; k < moved.of_all.size(); ++k)
+    is_kept[std::size_t(moved.of_all[k])] = chosen.basis.is_kept[k];
   for (int k = 0; k < int(omega.size()); ++k)
-    (chosen.basis.is_kept[std::size_t(k)] ? selection.kept : selection.neglected).push_back(k);
+    (is_kept[std::size_t(k)] ? selection.kept : selection.neglected).push_back(k);
   return selection;
 }
 

@@ -112,6 +112,7 @@ class SupernodalFactor : public CholeskyFactor {
   void solve_block(const SparseColumns& B, const std::vector<int>& columns,
                    const std::vector<std::vector<int>>& trees, LocalColumns X);
   void sum_slots(const std::vector<int>& supernodes, Panels X, MPI_Comm comm) const;
+  std::vector<char> active(Panels X, const Supernodes& trees) const;
   void sweep_forward(Panels X, const Supernodes& trees, const std::vector<char>& is_active) const;
   void sweep(Panels X, const Supernodes& trees, const std::vector<char>& is_active) const;
   template <typename Sweep>

@@ -146,10 +146,27 @@ void SupernodalFactor::sum_slots(const std::vector<int>& supernodes, Panels X, M
   }
 }
 
+/// The own supernodes in whose slots or below them something is not zero, and all shared ones.
+std::vector<char> SupernodalFactor::active(Panels X, const Supernodes& trees) const
+{
+  std::vector<char> is_active(tree_.n_supernodes(), 1);
+  for (const int s : trees.own) is_active[s] = 0;
+  for (const int s : trees.own) {
+    const std::size_t first = std::size_t(slot_[tree_.first_column[s]]) * panel_width;
+    const std::size_t n = std::size_t(tree_.n_columns(s)) * panel_width;
+    for (int p = 0; p < X.n_panels && is_active[s] == 0; ++p) {
+      const std::span<const double> values(X.values + p * X.stride + first, n);
+      if (std::ranges::any_of(values, [](double x) { return x != 0.0; })) is_active[s] = 1;
+    }
+    if (is_active[s] != 0 && tree_.parent[s] != -1) is_active[tree_.parent[s]] = 1;
+  }
+  return is_active;
+}
+
 /// X <- L^-1 X in some trees. Over the ranks of a group the slots above it add up to what all
 /// supernodes below have put there: of those that the group eliminates alike the first rank alone
 /// puts something there.
-/// @param is_active  [n_supernodes] of own supernodes: right-hand sides are not zero
+/// @param is_active  [n_supernodes] right-hand sides are not zero; true of all shared ones
 void SupernodalFactor::sweep_forward(Panels X, const Supernodes& trees,
                                      const std::vector<char>& is_active) const
 {
@@ -163,13 +180,14 @@ void SupernodalFactor::sweep_forward(Panels X, const Supernodes& trees,
   }
 }
 
-/// X <- A^-1 X
+/// X <- A^-1 X. Trees whose root is not active are zero.
 void SupernodalFactor::sweep(Panels X, const Supernodes& trees,
                              const std::vector<char>& is_active) const
 {
   sweep_forward(X, trees, is_active);
   const auto solve_all = [&](const std::vector<int>& supernodes) {
-    for (auto s = supernodes.rbegin(); s != supernodes.rend(); ++s) solve_backward(tiles(*s), X);
+    for (auto s = supernodes.rbegin(); s != supernodes.rend(); ++s)
+      if (is_active[tree_of_[*s]] != 0) solve_backward(tiles(*s), X);
   };
   std::for_each(trees.shared.rbegin(), trees.shared.rend(), solve_all);
   solve_all(trees.own);
@@ -193,15 +211,14 @@ void SupernodalFactor::in_panels(const SlotExchange& exchange, LocalColumns X, c
 
 void SupernodalFactor::solve(const SupernodalPart& part, LocalColumns X)
 {
-  const std::vector<char> all(tree_.n_supernodes(), 1);
-  in_panels(part.exchange, X, [&](Panels block) { sweep(block, part.supernodes, all); });
+  in_panels(part.exchange, X,
+            [&](Panels block) { sweep(block, part.supernodes, active(block, part.supernodes)); });
 }
 
 void SupernodalFactor::solve_half(const SupernodalPart& part, LocalColumns X)
 {
-  const std::vector<char> all(tree_.n_supernodes(), 1);
   in_panels(whole_.exchange, X, [&](Panels block) {
-    sweep_forward(block, part.supernodes, all);
+    sweep_forward(block, part.supernodes, active(block, part.supernodes));
     const auto scale = [&](const std::vector<int>& supernodes) {
       for (const int s : supernodes) scale_by_root(tiles(s), block);
     };
@@ -223,12 +240,14 @@ std::vector<std::vector<int>> SupernodalFactor::trees_of(const SparseColumns& B)
   return trees;
 }
 
-/// Some columns; the own supernodes where they are not zero, and those above.
+/// Some columns; the own supernodes where they are not zero, and those above, and all shared ones.
 std::vector<char> SupernodalFactor::take(const SparseColumns& B, const std::vector<int>& columns,
                                          Panels block) const
 {
   std::fill_n(block.values, block.stride * block.n_panels, 0.0);
   std::vector<char> is_active(tree_.n_supernodes(), 0);
+  for (int s = 0; s < tree_.n_supernodes(); ++s)
+    if (group_[s].size() > 1) is_active[s] = 1;
   for (std::size_t j = 0; j < columns.size(); ++j) {
     double* panel = block.values + j / panel_width * block.stride;
     for (int k = B.starts[columns[j]]; k < B.starts[columns[j] + 1]; ++k) {
