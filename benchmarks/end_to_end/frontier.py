@@ -36,9 +36,9 @@ import run  # noqa: E402
 
 CASES = {
     "thesis disc": {"scene": "thesis_disc/scene.toml", "up_to_Hz": 8000.0, "support": "hub", "loads": "track",
-                    "dof": "z", "most_modes": 500, "rounds": 3, "mesh": ("element_size = 0.009", "element_size = 0.013")},
+                    "dof": "z", "most_modes": 500, "rounds": 5, "mesh": ("element_size = 0.009", "element_size = 0.013")},
     "disc with hat": {"scene": "hat_disc/scene.toml", "up_to_Hz": 4000.0, "support": "hub", "loads": "track",
-                      "dof": "z", "most_modes": 400, "rounds": 3, "mesh": ("size = 16.0", "size = 22.0")},
+                      "dof": "z", "most_modes": 400, "rounds": 5, "mesh": ("size = 16.0", "size = 22.0")},
     "beam": {"scene": "beam/cantilever.toml", "up_to_Hz": 200.0, "support": "A", "loads": "B", "dof": "ry",
              "most_modes": 60, "rounds": 9, "mesh": ("elements = 300", "elements = 300")},
 }
