@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "common/eigen_every.hpp"
-#include "linear/cholesky/inverse_form.hpp"
 #include "linear/kernels/orthonormalisation.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
@@ -19,28 +18,6 @@ namespace chladni::reduce {
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 namespace {
-
-petsc::Matrix solved(Mat factor, Mat F)
-{
-  petsc::Matrix z = linear::uninitialized_dense(F, linear::LocalRows(F).n_cols());
-  petsc::check(MatMatSolve(factor, F, z));
-  return z;
-}
-
-/// A copy of some columns.
-petsc::Matrix columns_of(Mat X, std::span<const int> numbers)
-{
-  petsc::Matrix some = linear::uninitialized_dense(X, std::ssize(numbers));
-  const linear::LocalRows all(X);
-  PetscScalar* values = nullptr;
-  petsc::check(MatDenseGetArrayWrite(some, &values));
-  for (std::size_t j = 0; j < numbers.size(); ++j) {
-    std::copy_n(all.values() + std::size_t(numbers[j]) * all.leading_dimension(), all.n_rows(),
-                values + j * all.n_rows());
-  }
-  petsc::check(MatDenseRestoreArrayWrite(some, &values));
-  return some;
-}
 
 petsc::Matrix combined(Mat X, const MatrixXd& S)
 {
@@ -90,41 +67,74 @@ petsc::Matrix orthonormal(Mat shapes, Mat Phi, const VectorXd& lambda, Mat K)
   return combined(Z, o.to_Q);
 }
 
+std::vector<int> moving_masters(const GrowingBasis& basis)
+{
+  if (basis.moving) return *basis.moving;
+  std::vector<int> all(std::size_t(basis.model.n_masters));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+/// The places of some numbers in a list that has them, both ascending.
+std::vector<int> places(std::span<const int> numbers, const std::vector<int>& list)
+{
+  std::vector<int> at;
+  for (const int number : numbers)
+    at.push_back(static_cast<int>(std::ranges::lower_bound(list, number) - list.begin()));
+  return at;
+}
+
 }  // namespace
 
-ResidualForms::ResidualForms(const GrowingBasis& basis) : of_(basis)
+ResidualForms::ResidualForms(const GrowingBasis& basis)
+    : of_(basis), moving_(moving_masters(basis)), slaves_(basis.K_ss, basis.M, basis.Q_CB, moving_)
 {
-  moving_ = of_.moving.value_or(std::vector<int>(std::size_t(of_.model.n_masters)));
-  if (!of_.moving) std::iota(moving_.begin(), moving_.end(), 0);
+  if (!slaves_.are_all()) own_Phi_ = slaves_.rows_of(of_.Q_CB.modes->Phi);
   const MatrixXd H_mm = forms_of_masters();
-  linear::InverseForm D = linear::inverse_form(
-      of_.K_ss.factor(), linear::sparse_product(of_.M.ss, of_.Q_CB.modes->Phi));
+  linear::InverseForm D = slaves_.inverse_form(linear::sparse_product(slaves_.M_ss(), Phi()));
   H_ = bordered(H_mm, with_masters(D.right()), symmetric(linear::inner_product(D.left, D.right())));
   left_D_ = std::move(D.left);
 }
 
+/// B of moving masters first .. last - 1.
+petsc::Matrix ResidualForms::inertia_of_masters(std::size_t first, std::size_t last) const
+{
+  const std::vector<int> columns =
+      places(std::span(moving_).subspan(first, last - first), slaves_.masters());
+  const auto n = static_cast<PetscInt>(columns.size());
+  const linear::SparseProduct M_ss(slaves_.M_ss());
+  petsc::Matrix B = linear::uninitialized_dense(slaves_.M_ss(), n);
+  if (n > 0 && columns.back() - columns.front() == n - 1)
+    M_ss.apply(linear::ColumnRange(slaves_.Psi(), columns.front(), columns.back() + 1), B);
+  else
+    M_ss.apply(columns_of(slaves_.Psi(), columns), B);
+  MatrixXd unit = MatrixXd::Zero(of_.model.n_masters, n);
+  for (PetscInt j = 0; j < n; ++j) unit(moving_[first + std::size_t(j)], j) = 1.0;
+  linear::add_sparse_product(slaves_.M_sm(), unit, B);
+  return B;
+}
+
 MatrixXd ResidualForms::forms_of_masters()
 {
-  constexpr PetscInt most = 64;  // columns of B at a time
+  MatrixXd of_all = MatrixXd::Zero(of_.model.n_masters, of_.model.n_masters);
+  if (slaves_.halves()) {
+    left_B_ = std::move(slaves_.inverse_form(inertia_of_masters(0, moving_.size())).left);
+    of_all(moving_, moving_) = linear::gram(left_B_);
+    return of_all;
+  }
+  constexpr PetscInt most = 64;  // columns of B at a time: they stay beside the solutions
   const auto n = static_cast<PetscInt>(moving_.size());
-  const PetscInt n_m = of_.model.n_masters;
-  left_B_ = linear::uninitialized_dense(of_.K.ss, n);
-  MatrixXd unit = MatrixXd::Zero(n_m, n);
-  for (PetscInt j = 0; j < n; ++j) unit(moving_[std::size_t(j)], j) = 1.0;
+  left_B_ = linear::uninitialized_dense(slaves_.K_ss(), n);
   MatrixXd H = MatrixXd::Zero(n, n);
   for (PetscInt first = 0; first < n; first += most) {
     const PetscInt last = std::min(first + most, n);
-    petsc::Matrix B = linear::sparse_product(
-        of_.M.ss,
-        columns_of(of_.Q_CB.Psi, std::span(moving_).subspan(first, std::size_t(last - first))));
-    linear::add_sparse_product(of_.M.sm, unit.middleCols(first, last - first), B);
-    const linear::InverseForm form = linear::inverse_form(of_.K_ss.factor(), std::move(B));
+    const linear::InverseForm form =
+        slaves_.inverse_form(inertia_of_masters(std::size_t(first), std::size_t(last)));
     petsc::check(
         MatCopy(form.left, linear::ColumnRange(left_B_, first, last), SAME_NONZERO_PATTERN));
     H.block(0, first, last, last - first) =
         linear::inner_product(linear::ColumnRange(left_B_, 0, last), form.right());
   }
-  MatrixXd of_all = MatrixXd::Zero(n_m, n_m);
   of_all(moving_, moving_) = MatrixXd(H.selfadjointView<Eigen::Upper>());
   return of_all;
 }
@@ -151,36 +161,46 @@ petsc::Matrix ResidualForms::shapes(const MatrixXd& X, double s) const
 {
   const Index n_q = std::ssize(of_.model.omega);
   const MatrixXd X_m = X.topRows(X.rows() - n_q), X_q = X.bottomRows(n_q);
-  petsc::Matrix z = combined(of_.Q_CB.modes->Phi, X_q);
+  petsc::Matrix z = combined(Phi(), X_q);
   petsc::Matrix u;
   petsc::check(MatDuplicate(z, MAT_COPY_VALUES, u.put()));
-  linear::add_product(1.0, of_.Q_CB.Psi, X_m, u);
-  const petsc::Matrix inertia = linear::sparse_product(of_.M.ss, u);
-  linear::add_sparse_product(of_.M.sm, X_m, inertia);
-  petsc::check(MatAXPY(z, -s, solved(of_.K_ss.factor(), inertia), SAME_NONZERO_PATTERN));
+  linear::add_product(1.0, slaves_.Psi(), X_m(slaves_.masters(), every), u);
+  const petsc::Matrix inertia = linear::sparse_product(slaves_.M_ss(), u);
+  linear::add_sparse_product(slaves_.M_sm(), X_m, inertia);
+  petsc::check(MatAXPY(z, -s, slaves_.solution(inertia), SAME_NONZERO_PATTERN));
   return z;
 }
 
 void ResidualForms::append(Mat shapes)
 {
   ReducedModel& model = of_.model;
-  FixedInterfaceModes& modes = *of_.Q_CB.modes;
-  const petsc::Matrix Z = orthonormal(shapes, modes.Phi, stiffness_of_modes(model), of_.K.ss);
+  const petsc::Matrix Z = orthonormal(shapes, Phi(), stiffness_of_modes(model), slaves_.K_ss());
   const PetscInt k = linear::LocalRows(Z).n_cols();
-  petsc::Matrix D = linear::sparse_product(of_.M.ss, Z);
+  petsc::Matrix D = linear::sparse_product(slaves_.M_ss(), Z);
   MatrixXd above(model.M.rows(), k), H_above(H_.rows(), k);
-  above.topRows(model.n_masters) = linear::inner_product(of_.Q_CB.Psi, D) +
-                                   linear::inner_product_sparse(Z, of_.M.sm).transpose();
-  above.bottomRows(std::ssize(model.omega)) = linear::inner_product(modes.Phi, D);
+  above.topRows(model.n_masters) = linear::inner_product_sparse(Z, slaves_.M_sm()).transpose();
+  above(slaves_.masters(), every) += linear::inner_product(slaves_.Psi(), D);
+  above.bottomRows(std::ssize(model.omega)) = linear::inner_product(Phi(), D);
   model.M = bordered(model.M, above, symmetric(linear::inner_product(Z, D)));
-  const linear::InverseForm form = linear::inverse_form(of_.K_ss.factor(), std::move(D));
+  const linear::InverseForm form = slaves_.inverse_form(std::move(D));
   H_above.topRows(model.n_masters) = with_masters(form.right());
   H_above.bottomRows(std::ssize(model.omega)) = linear::inner_product(left_D_, form.right());
   H_ = bordered(H_, H_above, symmetric(linear::inner_product(form.left, form.right())));
   model.K = bordered(model.K, MatrixXd::Zero(model.K.rows(), k), MatrixXd::Identity(k, k));
-  modes.Phi = beside(modes.Phi, Z, k);
+  petsc::Matrix& own = slaves_.are_all() ? of_.Q_CB.modes->Phi : own_Phi_;
+  own = beside(own, Z, k);
   left_D_ = beside(left_D_, form.left, k);
   model.omega.resize(model.omega.size() + std::size_t(k), 1.0);
+}
+
+/// Phi and the shapes that have been added, at all slaves.
+petsc::Matrix ResidualForms::all_shapes()
+{
+  petsc::Matrix& Phi = of_.Q_CB.modes->Phi;
+  if (slaves_.are_all()) return std::move(Phi);
+  const PetscInt n_before = linear::LocalRows(Phi).n_cols(),
+                 n_now = linear::LocalRows(own_Phi_).n_cols();
+  return beside(Phi, slaves_.of_all(own_Phi_, n_before, n_now), n_now - n_before);
 }
 
 void ResidualForms::make_ritz()
@@ -201,7 +221,7 @@ void ResidualForms::make_ritz()
   }
   V.conservativeResize(n_q, std::ssize(omega));
   const MatrixXd P = linear::product(V.transpose(), model.M.bottomLeftCorner(n_q, n_m));
-  of_.Q_CB.modes = {.Phi = combined(of_.Q_CB.modes->Phi, V), .omega = omega};
+  of_.Q_CB.modes = {.Phi = combined(all_shapes(), V), .omega = omega};
   model = join({.K = model.K.topLeftCorner(n_m, n_m), .R = model.R},
                model.M.topLeftCorner(n_m, n_m), P, std::move(omega));
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "reduce/craig_bampton.hpp"
+#include "reduce/moving_slaves.hpp"
 
 namespace chladni::reduce {
 
@@ -34,7 +35,7 @@ class ResidualForms {
   /// @return [l x l]
   Eigen::MatrixXd energy(const Eigen::MatrixXd& X, double s) const;
   /// K_ss^-1 r of motions X: the shapes, zero at the masters, that reduce the error most.
-  /// @return [n_s x l] dense
+  /// @return [slaves that move x l] dense
   petsc::Matrix shapes(const Eigen::MatrixXd& X, double s) const;
   /// Adds shapes to the basis and the model, made K-orthonormal and K-orthogonal to the earlier
   /// ones. Shapes that depend on these or on each other are left out.
@@ -44,13 +45,19 @@ class ResidualForms {
   void make_ritz();
 
  private:
+  petsc::Matrix inertia_of_masters(std::size_t first, std::size_t last) const;
   /// B^T K_ss^-1 B, [n_m x n_m], zero where a master does not move.
   Eigen::MatrixXd forms_of_masters();
   /// B^T K_ss^-1 F, [n_m x k].
   Eigen::MatrixXd with_masters(Mat right) const;
 
+  Mat Phi() const { return slaves_.are_all() ? Mat(of_.Q_CB.modes->Phi) : Mat(own_Phi_); }
+  petsc::Matrix all_shapes();
+
   GrowingBasis of_;
   std::vector<int> moving_;
+  MovingSlaves slaves_;
+  petsc::Matrix own_Phi_;          ///< at the slaves that move, if these are not all
   petsc::Matrix left_B_, left_D_;  ///< `linear::InverseForm::left` of B (moving masters) and D
   Eigen::MatrixXd H_;              ///< [B D]^T K_ss^-1 [B D]
 };

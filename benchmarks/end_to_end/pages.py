@@ -25,7 +25,7 @@ the modes in the plane of a disc that is loaded along its normal; the responses 
 **By hand, frequencies alone**: the cheaper of the smallest number of fixed-interface modes whose frequencies keep the tolerance, by bisection, and of as many
 mixed-interface modes as the range has; with all modes of the range and a frequency-response mode of each load in the body. **By hand, responses too**: all
 modes up to a multiple of the range, in the reduction and in the body, of the method and with the smallest multiple that keep both promises. Cost: CPU seconds of all phases from the mesh to the body, without the start of the
-program; the median of {rounds} runs in turn. The choice by hand knows the full model's frequencies and responses; the cost of finding it is not counted.
+program; the least of {rounds} runs in turn, to which other work of the machine adds least. The choice by hand knows the full model's frequencies and responses; the cost of finding it is not counted.
 
 ![Error against tolerance, and against cost](figures/end_to_end.png)
 """

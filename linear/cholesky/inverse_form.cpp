@@ -8,11 +8,16 @@
 
 namespace chladni::linear {
 
+bool halves(Mat factor)
+{
+  const SupernodalFactor* ours = supernodal_of(factor);
+  return ours != nullptr && ours->n_negative_pivots() == 0;
+}
+
 InverseForm inverse_form(Mat factor, petsc::Matrix B)
 {
-  SupernodalFactor* ours = supernodal_of(factor);
-  if (ours != nullptr && ours->n_negative_pivots() == 0) {
-    ours->solve_half(LocalArray(B).columns());
+  if (halves(factor)) {
+    supernodal_of(factor)->solve_half(LocalArray(B).columns());
     return {.left = std::move(B), .forces = {}};
   }
   petsc::Matrix solutions = uninitialized_dense(B, LocalRows(B).n_cols());

@@ -12,7 +12,10 @@ struct InverseForm {
   Mat right() const { return forces ? Mat(forces) : Mat(left); }
 };
 
-/// The form B^T A^-1 B. With our own factor of a positive definite A it takes half a solution: left
+/// True for our own factor of a positive definite A: half a solution makes the form.
+bool halves(Mat factor);
+
+/// The form B^T A^-1 B. Where half a solution is enough, left
 /// = right = D^(-1/2) L^-1 B, stored in the place of B. With any other factor left = A^-1 B and
 /// right = B.
 /// @param factor  of A

@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 #include "linear/cholesky/cholesky_types.hpp"
 #include "linear/cholesky/local_array.hpp"
@@ -25,7 +26,14 @@ bool will_solve_for_parts(const OptionSource& source)
   return !is_given || std::string_view(name.data()) == supernodal;
 }
 
-std::function<void(Mat B, Mat X)> part_solver(Mat factor, IS rows)
+namespace {
+
+struct Part {
+  SupernodalFactor* whole;
+  std::shared_ptr<SupernodalPart> rows;
+};
+
+Part part_of(Mat factor, IS rows)
 {
   SupernodalFactor* whole = supernodal_of(factor);
   if (whole == nullptr) {
@@ -34,10 +42,30 @@ std::function<void(Mat B, Mat X)> part_solver(Mat factor, IS rows)
                     "-cms_pc_factor_mat_solver_type {}",
                     supernodal));
   }
-  const auto part = std::make_shared<SupernodalPart>(whole->part(rows));
-  return [whole, part](Mat B, Mat X) {
+  return {.whole = whole, .rows = std::make_shared<SupernodalPart>(whole->part(rows))};
+}
+
+}  // namespace
+
+std::function<void(Mat B, Mat X)> part_solver(Mat factor, IS rows)
+{
+  return [part = part_of(factor, rows)](Mat B, Mat X) {
     if (B != X) petsc::check(MatCopy(B, X, SAME_NONZERO_PATTERN));
-    whole->solve(*part, LocalArray(X).columns());
+    part.whole->solve(*part.rows, LocalArray(X).columns());
+  };
+}
+
+std::function<InverseForm(petsc::Matrix B)> part_form(Mat factor, IS rows)
+{
+  return [part = part_of(factor, rows)](petsc::Matrix B) -> InverseForm {
+    if (part.whole->n_negative_pivots() == 0) {
+      part.whole->solve_half(*part.rows, LocalArray(B).columns());
+      return {.left = std::move(B), .forces = {}};
+    }
+    petsc::Matrix solutions;
+    petsc::check(MatDuplicate(B, MAT_COPY_VALUES, solutions.put()));
+    part.whole->solve(*part.rows, LocalArray(solutions).columns());
+    return {.left = std::move(solutions), .forces = std::move(B)};
   };
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "common/petsc.hpp"
+#include "linear/cholesky/inverse_form.hpp"
 #include "linear/solver_options.hpp"
 
 namespace chladni::linear {
@@ -21,5 +22,9 @@ bool will_solve_for_parts(const OptionSource& source);
 /// @throws chladni::Error when other rows are coupled to these, or the factor does not solve for
 ///         parts.
 std::function<void(Mat B, Mat X)> part_solver(Mat factor, IS rows);
+
+/// A function that makes the form B^T A_pp^-1 B of a part; B has the rows of the part alone. The
+/// rest as `part_solver`.
+std::function<InverseForm(petsc::Matrix B)> part_form(Mat factor, IS rows);
 
 }  // namespace chladni::linear

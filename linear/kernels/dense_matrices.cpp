@@ -128,6 +128,23 @@ MatrixXd inner_product(Mat X, Mat Y)
   return product;
 }
 
+MatrixXd gram(Mat X)
+{
+  MatrixXd G = [&] {
+    const LocalRows x(X);
+    const Columns columns = columns_of(x);
+    MatrixXd upper = MatrixXd::Zero(columns.n_cols, columns.n_cols);
+    const PetscScalar one = 1.0, zero = 0.0;
+    if (columns.n_rows > 0 && columns.n_cols > 0) {
+      BLASsyrk_("U", "T", &columns.n_cols, &columns.n_rows, &one, columns.values,
+                &columns.leading_dimension, &zero, upper.data(), &columns.n_cols);
+    }
+    return MatrixXd(upper.selfadjointView<Eigen::Upper>());
+  }();
+  sum_over_ranks(values_of(G), petsc::communicator(X));
+  return G;
+}
+
 MatrixXd inner_product(const MatrixXd& X, const MatrixXd& Y)
 {
   return product_of_columns(columns_of(X), columns_of(Y));

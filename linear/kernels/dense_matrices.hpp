@@ -93,6 +93,10 @@ class ColumnRange {
 /// @note   Collective.
 Eigen::MatrixXd inner_product(Mat X, Mat Y);
 
+/// X^T X of a dense matrix, on every rank.
+/// @note   Collective.
+Eigen::MatrixXd gram(Mat X);
+
 /// X^T Y by the BLAS, which uses kernels for the processor at hand; Eigen's depend on compiler
 /// options.
 Eigen::MatrixXd inner_product(const Eigen::MatrixXd& X, const Eigen::MatrixXd& Y);

@@ -84,9 +84,10 @@ constexpr Key squeal_rows[] = {
      {.at_least = 1}},
     {"squeal.quasi_static_above_Hz",
      number,
-     "interface modes beyond the body's range",
+     "the body's range",
      "modes of higher frequency, of every kind, follow the pads without inertia; without it "
-     "interface modes do, which have no frequency that the disc has; with use_modes = \"all\"",
+     "interface modes do, and what a reduction by tolerance has beyond its range: the disc has no "
+     "such frequency; with use_modes = \"all\"",
      {.above = 0.0}},
     {"squeal.speeds", table, "required", "rotation speeds, equally spaced"},
     {"squeal.speeds.from_rad_s", number, "or from_rpm, from_km_h", "the lowest", speed},

@@ -69,9 +69,10 @@ struct Disc {
 /// nodal diameters, modes that do not move the rings axially are left out, and those whose sign
 /// changes from node to node. Without a choice, modes
 /// above `ModeChoice::quasi_static_above` contribute their compliance only; if that is absent, this
-/// holds for interface modes beyond the body's range. Such modes represent the static response of
-/// all modes beyond the range, at frequencies that the disc does not have. Other modes keep their
-/// inertia, and a mode of unknown kind counts as one of the disc.
+/// holds beyond the body's range for interface modes, and for the modes beyond the certificate of a
+/// reduction that was made for responses. Such modes represent the static response of all modes
+/// beyond the range, at frequencies that the disc does not have. Other modes keep their inertia,
+/// and a mode of unknown kind counts as one of the disc.
 /// @throws chladni::Error for an unknown ring, two rings with one name, a mode number that is out
 ///         of range or repeated, a number of nodal diameters without a pair of modes, rigid-body
 ///         modes (the body is not held), and modes that do not move the ring.

@@ -118,15 +118,27 @@ ModeKind kind_of(const ModalBody& body, int i)
   return at < body.kinds.size() ? body.kinds[at] : ModeKind::constrained;
 }
 
-/// What the scene says holds for all modes. Otherwise only what an interface mode does beyond the
-/// range is not the disc's: a mode of the disc has its frequency there too.
+/// Whether the disc has a vibration like this one. An interface mode stands for many. So does what
+/// a reduction has beyond the modes of its certificate if it was made for responses: combinations
+/// of the shapes that these needed.
+bool is_of_disc(const ModalBody& body, int i)
+{
+  constexpr double same = 1e-6;
+  if (kind_of(body, i) == ModeKind::interface) return false;
+  const mbs_export::Certificate& known = body.certificate;
+  if (!known.responses || known.fixed != body.fixed || known.frequencies.size() == 0) return true;
+  return body.omega[i] <= (1.0 + same) * known.frequencies.maxCoeff();
+}
+
+/// What the scene says holds for all modes. Otherwise only what the disc does not do beyond the
+/// range: a mode of the disc has its frequency there too.
 ModeParts parts_of_all(const Disc& disc, const ModalBody& body, const ModeChoice& choice)
 {
   ModeParts parts;
   const double limit = choice.quasi_static_above.value_or(range_of(body));
   const Motions motions = motions_of(disc);
   for (const int i : motions.moving) {
-    const bool may = choice.quasi_static_above || kind_of(body, i) == ModeKind::interface;
+    const bool may = choice.quasi_static_above || !is_of_disc(body, i);
     (may && disc.omega[i] > limit ? parts.quasi_static : parts.dynamic).push_back(i);
   }
   parts.still = counted_from_one(motions.still);
@@ -156,12 +168,12 @@ void check_elastic(const ModalBody& body, const std::vector<int>& modes)
 
 double range_of(const ModalBody& body)
 {
-  double range = 0.0, interface = 0.0;
-  for (std::size_t i = 0; i < body.kinds.size(); ++i) {
-    double& highest = body.kinds[i] == ModeKind::interface ? interface : range;
-    highest = std::max(highest, body.omega[static_cast<Eigen::Index>(i)]);
+  double range = 0.0, others = 0.0;
+  for (int i = 0; i < std::ssize(body.kinds); ++i) {
+    double& highest = is_of_disc(body, i) ? range : others;
+    highest = std::max(highest, body.omega[i]);
   }
-  if (interface == 0.0 || range == 0.0) return std::numeric_limits<double>::infinity();
+  if (others == 0.0 || range == 0.0) return std::numeric_limits<double>::infinity();
   return body.selection ? body.selection->Omega_max : range;
 }
 

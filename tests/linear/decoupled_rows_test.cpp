@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <utility>
 #include <vector>
 
 #include "linear/cholesky/factorization.hpp"
+#include "linear/cholesky/inverse_form.hpp"
 #include "linear/cholesky/part_solver.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/form_parts.hpp"
 #include "linear/kernels/gather.hpp"
+#include "linear/kernels/part_traces.hpp"
 #include "linear/kernels/parted_form.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "matrices.hpp"
@@ -242,6 +245,64 @@ TEST(PartSolver, SolvesForThePartAsTheWholeDoes)
         EXPECT_NEAR(part(i, j), whole(rows[i] - first, j), 1e-14) << rows[i] << ", " << j;
     petsc::check(ISRestoreIndices(set, &rows));
   }
+}
+
+/// A dense matrix with a value for each row and column.
+petsc::Matrix dense(Mat A, PetscInt n_columns,
+                    const std::function<double(PetscInt, PetscInt)>& value)
+{
+  petsc::Matrix X = uninitialized_dense(A, n_columns);
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(A, &first, &last));
+  for (PetscInt i = first; i < last; ++i)
+    for (PetscInt j = 0; j < n_columns; ++j)
+      petsc::check(MatSetValue(X, i, j, value(i, j), INSERT_VALUES));
+  testing::finish(X);
+  return X;
+}
+
+TEST(Factorization, LeavesPartsAtRestThatNothingLoads)
+{
+  const PetscInt n = 301;
+  const petsc::Matrix K = chains(n, 3);
+  const Factorization factorization(K);
+  const petsc::Matrix B = dense(
+      K, 11, [](PetscInt i, PetscInt j) { return i % 3 == 1 ? 1.0 / (1.0 + i % 7 + j) : 0.0; });
+  const petsc::Matrix X = uninitialized_dense(K, 11);
+  petsc::check(MatMatSolve(factorization.factor(), B, X));
+  const petsc::Matrix KX = sparse_product(K, X);
+  const LocalRows x(X), kx(KX), b(B);
+  PetscInt first = 0;
+  petsc::check(MatGetOwnershipRange(K, &first, nullptr));
+  for (PetscInt i = 0; i < x.n_rows(); ++i)
+    for (PetscInt j = 0; j < 11; ++j) {
+      EXPECT_NEAR(kx(i, j), b(i, j), 1e-13);
+      if ((first + i) % 3 != 1) {
+        EXPECT_EQ(x(i, j), 0.0);
+      }
+    }
+  const Eigen::MatrixXd form = inner_product(B, X);
+  petsc::Matrix forces;
+  petsc::check(MatDuplicate(B, MAT_COPY_VALUES, forces.put()));
+  const InverseForm half = inverse_form(factorization.factor(), std::move(forces));
+  EXPECT_LT((inner_product(half.left, half.right()) - form).norm(), 1e-13 * form.norm());
+}
+
+TEST(PartTraces, AreClearedWhereTheyAreRoundOff)
+{
+  // A mode of the even rows with a trace in the odd ones, one with more than round-off there, and
+  // one of the odd rows alone.
+  const std::array<double, 3> even{1.0, 1.0, 0.0}, odd{1e-12, 1e-8, 1.0};
+  const petsc::Matrix K = chains(301, 2), M = diagonal(301, 0, 0);
+  const petsc::Matrix X =
+      dense(K, 3, [&](PetscInt i, PetscInt j) { return i % 2 == 0 ? even[j] : odd[j]; });
+  clear_part_traces(K, M, X);
+  const LocalRows x(X);
+  PetscInt first = 0;
+  petsc::check(MatGetOwnershipRange(K, &first, nullptr));
+  const std::array<double, 3> left{0.0, 1e-8, 1.0};
+  for (PetscInt i = 0; i < x.n_rows(); ++i)
+    for (PetscInt j = 0; j < 3; ++j) EXPECT_EQ(x(i, j), (first + i) % 2 == 0 ? even[j] : left[j]);
 }
 
 TEST(PartSolver, RefusesRowsThatOthersAreCoupledTo)

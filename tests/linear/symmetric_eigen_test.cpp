@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace chladni::linear {
 namespace {
 
@@ -24,6 +26,28 @@ TEST(SymmetricEigen, IsOnAllRanksThatOfTheFirst)
       symmetric_eigen(chain_of_rank(petsc::rank(PETSC_COMM_WORLD)), PETSC_COMM_WORLD);
   EXPECT_EQ(told.values, own.values);
   EXPECT_EQ(told.vectors, own.vectors);
+}
+
+TEST(SymmetricEigen, HasNoRoundOffBetweenRowsThatAreNotCoupled)
+{
+  // Two matrices that lie into each other, with a common eigenvalue and others that are close.
+  constexpr PetscInt n = 20;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+  for (PetscInt i = 0; i < n; ++i) {
+    A(i, i) = i % 2 == 0 ? 2.0 : 2.0 + 1e-9 * double(i);
+    if (i > 1) A(i, i - 2) = A(i - 2, i) = -1.0;
+  }
+  const SymmetricEigen eigen = symmetric_eigen(A);
+  EXPECT_TRUE(std::ranges::is_sorted(eigen.values));
+  EXPECT_LT((eigen.vectors.transpose() * eigen.vectors - Eigen::MatrixXd::Identity(n, n)).norm(),
+            1e-13);
+  for (PetscInt k = 0; k < n; ++k) {
+    const Eigen::VectorXd v = eigen.vectors.col(k);
+    EXPECT_LT((A * v - eigen.values[std::size_t(k)] * v).norm(), 1e-13);
+    const bool is_even = v(Eigen::seq(1, n - 1, 2)).isZero(0.0),
+               is_odd = v(Eigen::seq(0, n - 2, 2)).isZero(0.0);
+    EXPECT_NE(is_even, is_odd) << k;
+  }
 }
 
 TEST(SymmetricEigen, OfAnEmptyMatrixIsEmpty)

@@ -129,6 +129,20 @@ TEST(ContactCompliance, LeavesTheModesOfTheDiscBeyondATolerancesRangeTheirInerti
   EXPECT_EQ(said.compliance.mode_numbers, (std::vector{3, 4, 5, 6}));
 }
 
+TEST(ContactCompliance, TakesTheInertiaOfShapesThatAReductionHasForResponses)
+{
+  mbs_export::ModalBody body = body_with_a_pair_beyond_its_range();
+  body.certificate.fixed = body.fixed;
+  body.certificate.frequencies = body.omega.head(2);
+  body.certificate.responses = {.up_to = body.omega[1], .error = 1e-3, .loads = {}};
+  const Disc disc = disc_on_ring(body, "track", {});
+  EXPECT_EQ(disc.mode_numbers, (std::vector{1, 2}));
+  EXPECT_EQ(disc.compliance.mode_numbers, (std::vector{3, 4, 5, 6}));
+  // Held otherwise, the body has modes of which the certificate does not know.
+  body.certificate.fixed = {"another support"};
+  EXPECT_EQ(disc_on_ring(body, "track", {}).mode_numbers, (std::vector{1, 2, 5, 6}));
+}
+
 TEST(ContactCompliance, CountsAModeOfUnknownKindAsOneOfTheDisc)
 {
   mbs_export::ModalBody body = body_with_a_pair_beyond_its_range();

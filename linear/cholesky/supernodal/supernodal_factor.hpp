@@ -75,7 +75,7 @@ class SupernodalFactor : public CholeskyFactor {
   void solve(const SparseColumns& B, LocalColumns X) override;
   /// X <- D^(-1/2) L^-1 X for a positive definite matrix, in the order of its rows.
   void solve_half(LocalColumns X) { solve_half(whole_, X); }
-  /// The same for X that is zero but in the rows of a part; X has all rows.
+  /// The same for the rows of a part alone.
   void solve_half(const SupernodalPart& part, LocalColumns X);
   Memory forecast() const override;
   FactorSize size() const override;

@@ -217,7 +217,7 @@ void SupernodalFactor::solve(const SupernodalPart& part, LocalColumns X)
 
 void SupernodalFactor::solve_half(const SupernodalPart& part, LocalColumns X)
 {
-  in_panels(whole_.exchange, X, [&](Panels block) {
+  in_panels(part.exchange, X, [&](Panels block) {
     sweep_forward(block, part.supernodes, active(block, part.supernodes));
     const auto scale = [&](const std::vector<int>& supernodes) {
       for (const int s : supernodes) scale_by_root(tiles(s), block);
