@@ -11,7 +11,9 @@ namespace chladni::reduce {
 /// are the rigid motions that the supports leave. A f is the displacement, free of rigid motion and
 /// zero at the held masters, under the forces f without the part that accelerates the body as a
 /// rigid one. The only large factor is that of K_ss; beside it the small dense K_G is inverted
-/// without the motions R and the held rows.
+/// without the motions R and the held rows. A factor of K between the free DOFs would spare the
+/// products with Psi; it was slower, since masters on a ring cut the mesh and with it K_ss into
+/// pieces.
 class Flexibility {
  public:
   /// @param body, Psi  must outlive this object

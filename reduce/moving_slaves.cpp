@@ -154,6 +154,7 @@ MovingSlaves::MovingSlaves(const linear::Factorization& K_ss, const Blocks& M,
   petsc::check(ISCreateGeneral(petsc::communicator(M.ss), static_cast<PetscInt>(global.size()),
                                global.data(), PETSC_COPY_VALUES, rows_.put()));
   std::erase_if(masters_, [&](int master) {
+    if (std::ranges::binary_search(moving, master)) return false;
     for (std::size_t p = 0; p < parts.rows.size(); ++p)
       if (is_moved[p] != 0 && parts.masters(p, master)) return false;
     return true;

@@ -29,7 +29,7 @@ class MovingSlaves {
   Mat M_sm() const { return are_all() ? M_.sm : Mat(M_sm_); }
   /// [moving slaves x masters()]
   Mat Psi() const { return are_all() ? Mat(Q_CB_.Psi) : Mat(Psi_); }
-  /// The masters that move these slaves, ascending.
+  /// The masters that move these slaves, and all that were given, ascending.
   const std::vector<int>& masters() const { return masters_; }
 
   /// The rows of these slaves of a dense X [n_s x k].

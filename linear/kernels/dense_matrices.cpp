@@ -107,13 +107,12 @@ Columns columns_of(const LocalRows& rows)
           .leading_dimension = rows.leading_dimension()};
 }
 
-Columns columns_of(const MatrixXd& A)
+Columns columns_of(const Eigen::Ref<const MatrixXd>& A)
 {
-  const auto n_rows = static_cast<PetscBLASInt>(A.rows());
   return {.values = A.data(),
-          .n_rows = n_rows,
+          .n_rows = static_cast<PetscBLASInt>(A.rows()),
           .n_cols = static_cast<PetscBLASInt>(A.cols()),
-          .leading_dimension = std::max(n_rows, 1)};
+          .leading_dimension = std::max<PetscBLASInt>(PetscBLASInt(A.outerStride()), 1)};
 }
 
 }  // namespace
@@ -145,7 +144,7 @@ MatrixXd gram(Mat X)
   return G;
 }
 
-MatrixXd inner_product(const MatrixXd& X, const MatrixXd& Y)
+MatrixXd inner_product(const Eigen::Ref<const MatrixXd>& X, const Eigen::Ref<const MatrixXd>& Y)
 {
   return product_of_columns(columns_of(X), columns_of(Y));
 }

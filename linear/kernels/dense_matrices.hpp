@@ -99,7 +99,8 @@ Eigen::MatrixXd gram(Mat X);
 
 /// X^T Y by the BLAS, which uses kernels for the processor at hand; Eigen's depend on compiler
 /// options.
-Eigen::MatrixXd inner_product(const Eigen::MatrixXd& X, const Eigen::MatrixXd& Y);
+Eigen::MatrixXd inner_product(const Eigen::Ref<const Eigen::MatrixXd>& X,
+                              const Eigen::Ref<const Eigen::MatrixXd>& Y);
 
 /// x_k^T y_k of the columns of two dense matrices with equally distributed rows, on every rank.
 /// @note   Collective.

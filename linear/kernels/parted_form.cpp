@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,13 @@ class PartColumns {
   {
     for (PetscInt& number : numbers_) number += before;
   }
+  /// Copies the rows of a part of few rows for all that `inner` will be asked for.
+  void keep_few_rows()
+  {
+    constexpr std::size_t few = 4;  // a fourth of all
+    if (rows_ != nullptr && few * rows_->size() <= std::size_t(LocalRows(X_).n_rows()))
+      kept_ = values(*rows_, size());
+  }
 
   PetscInt size() const { return static_cast<PetscInt>(columns_.size()); }
   /// Numbers of the columns first to last among those of all matrices.
@@ -65,14 +73,16 @@ class PartColumns {
     if (rows_ == nullptr) return inner_product(ColumnRange(X_, 0, n), Y);
     constexpr std::size_t piece = 1024;  // rows: these columns in a second-level cache
     MatrixXd sum = MatrixXd::Zero(n, n_columns_of(Y));
-    {
+    if (kept_) {
+      const LocalRows right(Y);
+      sum = inner_product(kept_->leftCols(n), values_of_rows(right));
+    } else {
       const LocalRows right(Y);
       for (std::size_t at = 0; at < rows_->size(); at += piece) {
         const std::size_t n_rows = std::min(piece, rows_->size() - at);
-        const Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>> of_Y(
-            right.values() + at, Eigen::Index(n_rows), right.n_cols(),
-            Eigen::OuterStride<>(right.leading_dimension()));
-        sum += inner_product(values(std::span(*rows_).subspan(at, n_rows), n), MatrixXd(of_Y));
+        sum +=
+            inner_product(values(std::span(*rows_).subspan(at, n_rows), n),
+                          values_of_rows(right).middleRows(Eigen::Index(at), Eigen::Index(n_rows)));
       }
     }
     sum_over_ranks(values_of(sum), petsc::communicator(X_));
@@ -89,6 +99,12 @@ class PartColumns {
   }
 
  private:
+  using Values = Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>>;
+  static Values values_of_rows(const LocalRows& Y)
+  {
+    return {Y.values(), Y.n_rows(), Y.n_cols(), Eigen::OuterStride<>(Y.leading_dimension())};
+  }
+
   MatrixXd values(std::span<const PetscInt> rows, PetscInt n) const
   {
     const LocalRows all(X_);
@@ -114,6 +130,7 @@ class PartColumns {
   Mat X_;
   const std::vector<PetscInt>* rows_;
   std::vector<PetscInt> columns_, numbers_;
+  std::optional<MatrixXd> kept_;
 };
 
 /// visit(j, first, last, A X_j) for columns first to last of each X_j.
@@ -131,8 +148,9 @@ void for_products(std::span<const PartColumns> X, Mat A, const Visit& visit)
 }
 
 /// Adds what all columns are with each other, in the upper triangle.
-void add_symmetric(MatrixXd& F, std::span<const PartColumns> X, Mat A)
+void add_symmetric(MatrixXd& F, std::span<PartColumns> X, Mat A)
 {
+  for (PartColumns& columns : X) columns.keep_few_rows();
   for_products(X, A, [&](std::size_t j, PetscInt first, PetscInt last, Mat A_X) {
     for (std::size_t i = 0; i <= j; ++i) {
       const PetscInt n = i == j ? last : X[i].size();
@@ -256,7 +274,7 @@ MatrixXd parted_form(std::span<const Mat> X, Mat A, FormSymmetry symmetry)
 {
   const PetscInt n = n_columns_of_all(X);
   MatrixXd F = MatrixXd::Zero(n, n);
-  for_parts(X, A, [&](const std::vector<PartColumns>& columns, Mat part) {
+  for_parts(X, A, [&](std::vector<PartColumns> columns, Mat part) {
     if (symmetry == FormSymmetry::symmetric) return add_symmetric(F, columns, part);
     add_unsymmetric(F, columns, part);
   });

@@ -168,10 +168,11 @@ std::vector<std::string> notes_of(const Disc& disc)
         fmt::join(disc.still, ", ")));
   }
   if (!disc.alternating.empty()) {
-    notes.push_back(fmt::format(
-        "{} of the body's modes, whose sign changes from node to node of the ring, which shows one "
-        "of such a pair only, take no part: {}",
-        disc.alternating.size(), fmt::join(disc.alternating, ", ")));
+    notes.push_back(
+        fmt::format("{} of the body's modes, whose sign changes from node to node of the ring, "
+                    "take no part: {}; "
+                    "a ring of more nodes would show both modes of such a pair",
+                    disc.alternating.size(), fmt::join(disc.alternating, ", ")));
   }
   return notes;
 }

@@ -7,8 +7,11 @@
 
 #include "common/petsc_compat.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "reduce/fixed_interface_modes.hpp"
+#include "reduce/moving_slaves.hpp"
 #include "reduce/residual_forms.hpp"
 #include "tests/linear/chain.hpp"
+#include "tests/linear/matrices.hpp"
 
 namespace chladni::reduce {
 namespace {
@@ -143,6 +146,60 @@ TEST(ResidualForms, NeedNoMastersThatStandStill)
   const MatrixXd of_modes = ResidualForms(still.growing()).energy(in_modes, s);
   EXPECT_LT((ResidualForms(of_none).energy(in_modes, s) - of_modes).norm(),
             1e-13 * of_modes.norm());
+}
+
+/// Two chains that lie into each other, each between fixed ends, with masters in both.
+struct TwoChains {
+  petsc::Matrix K_all = chains(2.1, -1.0), M_all = chains(1.0, 0.1);
+  DofPartition dofs = partition(K_all, master_set(K_all, {10, 21, 60, 83}));
+  Blocks K = split(K_all, dofs), M = split(M_all, dofs);
+  linear::Factorization K_ss = linear::factorize(K.ss);
+  CraigBamptonBasis Q{.Psi = constraint_modes(K_ss, K),
+                      .modes = fixed_interface_modes(K_ss, M.ss, {.modes = 6})};
+  ReducedModel model = project(Q, K, M);
+
+  static petsc::Matrix chains(double diagonal, double beside)
+  {
+    constexpr PetscInt n_rows = 120;
+    return linear::testing::matrix(n_rows, 3, [&](PetscInt i) {
+      linear::testing::Row row{{i, diagonal}};
+      if (i >= 2) row.emplace_back(i - 2, beside);
+      if (i + 2 < n_rows) row.emplace_back(i + 2, beside);
+      return row;
+    });
+  }
+  GrowingBasis growing(std::vector<int> moving)
+  {
+    return {.K_ss = K_ss, .K = K, .M = M, .Q_CB = Q, .model = model, .moving = std::move(moving)};
+  }
+  /// Responses to forces at the even masters, which are the first and the third.
+  MatrixXd responses(double s) const
+  {
+    MatrixXd F = MatrixXd::Zero(model.K.rows(), 2);
+    F(0, 0) = F(2, 1) = 1.0;
+    return (model.K - s * model.M).partialPivLu().solve(F);
+  }
+};
+
+TEST(ResidualForms, OfAPartThatMovesAreThoseOfTheWhole)
+{
+  TwoChains of_part, of_all;
+  const MovingSlaves even(of_part.K_ss, of_part.M, of_part.Q, {0, 2});
+  EXPECT_FALSE(even.are_all());
+  EXPECT_EQ(even.masters(), (std::vector<int>{0, 2}));
+  ResidualForms part(of_part.growing({0, 2})), all(of_all.growing({0, 1, 2, 3}));
+  const double s = 0.02;
+  const MatrixXd X = of_all.responses(s), G = all.energy(X, s);
+  EXPECT_GT(G.norm(), 1e-6 * X.squaredNorm());
+  EXPECT_LT((part.energy(X, s) - G).norm(), 1e-13 * X.squaredNorm());
+  part.append(part.shapes(X, s));
+  all.append(all.shapes(X, s));
+  const MatrixXd Y = of_all.responses(0.5 * s), H = all.energy(Y, 0.5 * s);
+  EXPECT_LT((part.energy(Y, 0.5 * s) - H).norm(), 1e-13 * Y.squaredNorm());
+  part.make_ritz();
+  const ReducedModel anew = project(of_part.Q, of_part.K, of_part.M);
+  EXPECT_LT((anew.K - of_part.model.K).norm(), 1e-12 * anew.K.norm());
+  EXPECT_LT((anew.M - of_part.model.M).norm(), 1e-12 * anew.M.norm());
 }
 
 /// Errors relative to the static response.
