@@ -230,9 +230,10 @@ def compared(case, reference, tolerance, n_by_hand):
     multiples = {method: smallest_multiple(case, reference, tolerance, method) for method in METHODS}
     text = texts(case, reference, tolerance, n_by_hand, multiples)
     found = {name: measured(case, reference, tolerance, one) for name, one in text.items()}
-    for _ in range(case["rounds"] - 1):
-        for name, one in text.items():
-            again(case, found[name], one)
+    names = list(text)
+    for i in range(1, case["rounds"]):  # each round begins with another: what ran before may matter
+        for name in names[i % len(names):] + names[:i % len(names)]:
+            again(case, found[name], text[name])
     for name, one in found.items():
         one["tolerance"], one["multiple"] = tolerance, multiples.get(name)
         one["cost_s"] = min(one["costs"])
