@@ -18,7 +18,7 @@ ALLOWED = {
     "files": ("common",),
     "linear": ("common",),
     "linear/dense": ("common",),
-    "linear/kernels": ("common", "linear"),
+    "linear/kernels": ("common", "linear", "linear/dense"),
     "linear/cholesky": ("common", "linear", "linear/kernels", "linear/cholesky/supernodal"),
     "linear/cholesky/supernodal": ("common", "linear", "linear/kernels", "linear/cholesky"),
     "linear/lanczos": ("common", "linear", "linear/kernels"),
