@@ -23,7 +23,7 @@ double free_MiB();
 /// Returns freed heap memory to the operating system, in pieces of any size.
 void give_back_freed();
 
-/// What has been freed in the heap of this process and not been given back, MiB.
+/// What is free in the heap of this process, also what has been given back, MiB.
 double freed_MiB();
 
 /// The machine that lacks most or, if none lacks memory, has the least left.

@@ -103,6 +103,19 @@ std::optional<double> error_of_reduction(const Certificate& certificate, const B
   return check->error;
 }
 
+/// Response modes of those modes that the loads move, zero in the others: one of these may have the
+/// frequency of the loads.
+MatrixXd responses_of_moved(const VectorXd& omega, const MatrixXd& B, const InterfaceChoice& choice)
+{
+  std::vector<int> moved;
+  for (int k = 0; k < int(omega.size()); ++k)
+    if (!B.row(k).isZero(0.0)) moved.push_back(k);
+  const MatrixXd g = B(moved, every) * choice.patterns;
+  MatrixXd responses = MatrixXd::Zero(omega.size(), g.cols());
+  responses(moved, every) = response_modes(omega(moved), g, choice.Omega_0);
+  return responses;
+}
+
 Choice choose_by_tolerance(const HeldModes& modes, const BodyOptions& options)
 {
   if (options.keep.count || options.keep.up_to_Hz || options.keep.list) {
@@ -119,11 +132,10 @@ Choice choose_by_tolerance(const HeldModes& modes, const BodyOptions& options)
   chosen.table.error = options.keep.tolerance->error;
   chosen.table.of_reduction = of_reduction;
   const VectorXd omega_n = modes.omega(chosen.neglected);
+  const MatrixXd B_n = B(chosen.neglected, every);
   MatrixXd responses(omega_n.size(), 0);
-  for (const InterfaceChoice& one : chosen.interface) {
-    const MatrixXd g = B(chosen.neglected, every) * one.patterns;
-    responses = beside(responses, response_modes(omega_n, g, one.Omega_0));
-  }
+  for (const InterfaceChoice& one : chosen.interface)
+    responses = beside(responses, responses_of_moved(omega_n, B_n, one));
   return {{std::move(chosen.kept), std::move(chosen.neglected), 0},
           interface_basis(omega_n, responses),
           std::move(chosen.table)};

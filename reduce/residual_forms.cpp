@@ -99,15 +99,21 @@ ResidualForms::ResidualForms(const GrowingBasis& basis)
 /// B of moving masters first .. last - 1.
 petsc::Matrix ResidualForms::inertia_of_masters(std::size_t first, std::size_t last) const
 {
+  constexpr PetscInt most = 64;  // columns that are copied at a time
   const std::vector<int> columns =
       places(std::span(moving_).subspan(first, last - first), slaves_.masters());
   const auto n = static_cast<PetscInt>(columns.size());
   const linear::SparseProduct M_ss(slaves_.M_ss());
   petsc::Matrix B = linear::uninitialized_dense(slaves_.M_ss(), n);
-  if (n > 0 && columns.back() - columns.front() == n - 1)
+  if (n > 0 && columns.back() - columns.front() == n - 1) {
     M_ss.apply(linear::ColumnRange(slaves_.Psi(), columns.front(), columns.back() + 1), B);
-  else
-    M_ss.apply(columns_of(slaves_.Psi(), columns), B);
+  } else {
+    for (PetscInt at = 0; at < n; at += most) {
+      const PetscInt end = std::min(at + most, n);
+      const auto some = std::span(columns).subspan(std::size_t(at), std::size_t(end - at));
+      M_ss.apply(columns_of(slaves_.Psi(), some), linear::ColumnRange(B, at, end));
+    }
+  }
   MatrixXd unit = MatrixXd::Zero(of_.model.n_masters, n);
   for (PetscInt j = 0; j < n; ++j) unit(moving_[first + std::size_t(j)], j) = 1.0;
   linear::add_sparse_product(slaves_.M_sm(), unit, B);

@@ -29,16 +29,15 @@ Eigen::MatrixXd ring_motion(const Disc& disc)
   return ring_harmonics(disc.rings).squares_by_harmonic();
 }
 
-/// [n_modes] squared amplitudes of harmonic n / 2 on rings of an even number n of nodes.
-Eigen::VectorXd alternating_motion(const Disc& disc)
+/// [n_modes] squared amplitudes of harmonic n / 2 on a ring of an even number n of nodes.
+Eigen::VectorXd alternating_motion(const DiscRing& ring, Eigen::Index n_modes)
 {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(disc.n_modes());
-  for (const DiscRing& ring : disc.rings)
-    for (const auto& [f, scale] : functions_of(ring))
-      for (Eigen::Index d = ring.n_whole_harmonics(); d < f->cosine.rows(); ++d) {
-        sum +=
-            scale * scale * (f->cosine.row(d).cwiseAbs2() + f->sine.row(d).cwiseAbs2()).transpose();
-      }
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(n_modes);
+  for (const auto& [f, scale] : functions_of(ring))
+    for (Eigen::Index d = ring.n_whole_harmonics(); d < f->cosine.rows(); ++d) {
+      sum +=
+          scale * scale * (f->cosine.row(d).cwiseAbs2() + f->sine.row(d).cwiseAbs2()).transpose();
+    }
   return sum;
 }
 
@@ -50,16 +49,26 @@ struct Motions {
   std::vector<int> still;
 };
 
+/// A ring of other nodes may show both modes of a pair.
 Motions motions_of(const Disc& disc)
 {
-  const Eigen::VectorXd whole = ring_motion(disc).colwise().sum().transpose();
-  const Eigen::VectorXd alternating = alternating_motion(disc);
-  const double limit = still_limit * still_limit * whole.maxCoeff();
+  const Eigen::VectorXd all = ring_motion(disc).colwise().sum().transpose();
+  const double limit = still_limit * still_limit * all.maxCoeff();
+  std::vector<char> alternates(std::size_t(disc.n_modes()), 0), moves(alternates);
+  for (const DiscRing& ring : disc.rings) {
+    const Eigen::VectorXd alternating = alternating_motion(ring, disc.n_modes()),
+                          whole = ring_harmonics({ring}).squares();
+    for (Eigen::Index i = 0; i < disc.n_modes(); ++i) {
+      if (std::max(whole[i], alternating[i]) <= limit) continue;
+      (alternating[i] > whole[i] ? alternates : moves)[std::size_t(i)] = 1;
+    }
+  }
   Motions motions;
   for (int i = 0; i < disc.n_modes(); ++i) {
-    (std::max(whole[i], alternating[i]) <= limit ? motions.still
-     : alternating[i] > whole[i]                 ? motions.alternating
-                                                 : motions.moving)
+    const bool is_alternating = alternates[std::size_t(i)] != 0 && moves[std::size_t(i)] == 0;
+    (is_alternating   ? motions.alternating
+     : all[i] > limit ? motions.moving
+                      : motions.still)
         .push_back(i);
   }
   return motions;
@@ -143,6 +152,11 @@ ModeParts parts_of_all(const Disc& disc, const ModalBody& body, const ModeChoice
   }
   parts.still = counted_from_one(motions.still);
   parts.alternating = counted_from_one(motions.alternating);
+  if (parts.dynamic.empty() && parts.quasi_static.empty()) {
+    throw Error(
+        "each mode that moves the ring changes its sign from node to node, which shows one mode of "
+        "such a pair only; reduce the disc with more nodes on the ring");
+  }
   if (parts.dynamic.empty()) {
     throw Error(
         fmt::format("quasi_static_above_Hz: {:.6g} Hz leaves no mode with inertia; the lowest mode "
