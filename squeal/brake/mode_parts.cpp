@@ -44,8 +44,8 @@ Eigen::VectorXd alternating_motion(const DiscRing& ring, Eigen::Index n_modes)
 /// What the modes do to the rings, 0-based and ascending.
 struct Motions {
   std::vector<int> moving;  ///< along the axis
-  std::vector<int>
-      alternating;  ///< most of it with harmonic n / 2, of which n nodes show one phase
+  /// Most of it with harmonic n / 2, of which a ring of n nodes shows one phase.
+  std::vector<int> alternating;
   std::vector<int> still;
 };
 

@@ -237,6 +237,26 @@ TEST(InertialDisc, LeavesModesInThePlaneAndTheUnpairedHarmonicOut)
   EXPECT_EQ(inertial_disc(disc).nodal_diameters, (std::vector<int>{2, 2, 3, 3}));
 }
 
+TEST(InertialDisc, KeepsAPairThatOneOfTwoRingsShows)
+{
+  // On 60 nodes both modes of 15 diameters, on 30 nodes one of them, with twice the amplitude.
+  mbs_export::ModalBody body = analytic_body(
+      {kirchhoff_2(), {.n = 15, .f_Hz = 9e3, .mass = 1.0, .U = 0.5, .U_r = 5.0, .U_t = 50.0}});
+  mbs_export::ContactRing outer = body.rings[0];
+  outer.name = "outer";
+  const auto every_second = Eigen::seqN(0, 30, 2);
+  const mbs_export::ContactRing& inner = body.rings[0];
+  outer.angles = inner.angles(every_second).eval();
+  outer.W = 2.0 * inner.W(every_second, Eigen::seqN(0, 4));
+  outer.W_r = 2.0 * inner.W_r(every_second, Eigen::seqN(0, 4));
+  outer.W_t = Eigen::MatrixXd::Zero(30, 4);
+  body.rings.push_back(outer);
+  body.rings[0].W_t.rightCols(2).setZero();
+  const Disc disc = make_disc(body, RingChoice{.names = {"track", "outer"}}, {});
+  EXPECT_TRUE(disc.alternating.empty());
+  EXPECT_EQ(disc.mode_numbers, (std::vector<int>{1, 2, 3, 4}));
+}
+
 TEST(InertialDisc, HasTorsionThatTurnsTheNormalsAlike)
 {
   // All points of the ring lean along the circumference by the same angle, as between vanes.
