@@ -48,13 +48,13 @@ FeModel assemble_scene(const scene::Scene& scene, mesh::Mesh mesh)
 
 reduce::ReductionOptions options_of(const scene::Scene& scene, const linear::SolverOptions& solver)
 {
-  // Of mass integrals and stiffening: 64 columns of the product of a matrix with Psi and Phi; of
-  // these, and of Psi and Phi, the rows that move in one direction; that matrix and its block of
-  // the slaves.
-  constexpr double moving_rows = 0.4, block = 64.0;
+  // Of mass integrals and stiffening: 64 columns of the product of a matrix with Psi and Phi, and
+  // their rows that move in one direction; the rows of Psi and Phi that several forms need
+  // together; these forms and their blocks.
+  constexpr double moving_rows = 0.4, rows_together = 0.7, block = 64.0;
   constexpr reduce::WorkAfterwards in_integrals{.columns = block * (1.0 + moving_rows),
-                                                .of_a_part_for_each_kept = moving_rows,
-                                                .matrices = 2.0};
+                                                .of_a_part_for_each_kept = rows_together,
+                                                .matrices = 3.0};
   const bool projects = scene.mass_integrals || !scene.stiffening.empty();
   reduce::WorkAfterwards later = projects ? in_integrals : reduce::WorkAfterwards{};
   if (may_keep_responses(scene)) {

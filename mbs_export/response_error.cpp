@@ -124,27 +124,12 @@ Addition addition(const ReferenceResponse& reference, const TrialBasis& basis, M
           .v_v = v.transpose() * v};
 }
 
-/// The numbers of a complex matrix, real and imaginary parts in turn.
-/// @return [2 rows x columns]
-MatrixXd as_pairs(const MatrixXcd& A)
-{
-  return Eigen::Map<const MatrixXd>(reinterpret_cast<const double*>(A.data()), 2 * A.rows(),
-                                    A.cols());
-}
-
-/// A <- A - U S for few columns of U: with the pairs of A, (u, i u) (Re s, Im s)^T.
-/// @return norms of the columns of A
-VectorXd subtract(const MatrixXcd& U, const MatrixXcd& S, MatrixXcd& A)
-{
-  MatrixXd left(2 * U.rows(), 2 * U.cols()), right(2 * U.cols(), S.cols());
-  left << as_pairs(U), as_pairs(Complex(0.0, 1.0) * U);
-  right << S.real(), S.imag();
-  return linear::subtract_of_low_rank(left, right, reinterpret_cast<double*>(A.data())).cwiseSqrt();
-}
-
 /// Galerkin with one more vector v: w = v - V (V^T D V)^-1 V^T D v is D-orthogonal to the basis, so
 /// that H of the basis grows by B^T w (v^T D w)^-1 w^T B.
-void extend(const ReferenceResponse& reference, TrialBasis& basis, const Addition& added)
+/// @param use  takes g, B^T w and (v^T D w)^-1 w^T B
+template <typename Use>
+void for_growth(const ReferenceResponse& reference, const TrialBasis& basis, const Addition& added,
+                const Use& use)
 {
   const Index n_g = reference.Omega.size(), n = added.v.cols();
   MatrixXd scaled(basis.V.cols(), 2 * n * n_g);  // (V^T D V)^-1 V^T D v, real | imaginary
@@ -164,14 +149,39 @@ void extend(const ReferenceResponse& reference, TrialBasis& basis, const Additio
     MatrixXcd outputs_w(reference.B.cols(), n);
     outputs_w.real() = added.outputs - of_V.middleCols(2 * n * g, n);
     outputs_w.imag() = -of_V.middleCols(2 * n * g + n, n);
-    const MatrixXcd rows = v_D_w[std::size_t(g)].inverse() * outputs_w.transpose();
-    const VectorXd norms = subtract(outputs_w, rows, basis.remainder[std::size_t(g)]);
-    basis.error.col(g) = norms.cwiseQuotient(reference.size.col(g));
+    use(g, outputs_w, MatrixXcd(v_D_w[std::size_t(g)].inverse() * outputs_w.transpose()));
   }
 }
 
-/// The interface modes anew, in the modes that are not kept.
-void update_interface(const ReferenceResponse& reference, TrialBasis& basis)
+void extend(const ReferenceResponse& reference, TrialBasis& basis, const Addition& added)
+{
+  for_growth(reference, basis, added, [&](Index g, const MatrixXcd& U, const MatrixXcd& S) {
+    basis.error.col(g) = linear::subtract_from_symmetric(U, S, basis.remainder[std::size_t(g)])
+                             .cwiseQuotient(reference.size.col(g));
+  });
+}
+
+/// The error of the basis with v.
+MatrixXd error_with(const ReferenceResponse& reference, const TrialBasis& basis, MatrixXd v)
+{
+  const Addition added = addition(reference, basis, std::move(v));
+  MatrixXd error(basis.error.rows(), basis.error.cols());
+  for_growth(reference, basis, added, [&](Index g, const MatrixXcd& U, const MatrixXcd& S) {
+    error.col(g) = linear::norms_without(U, S, basis.remainder[std::size_t(g)])
+                       .cwiseQuotient(reference.size.col(g));
+  });
+  return error;
+}
+
+MatrixXd unit_vectors(const ReferenceResponse& reference, const ModeCluster& cluster)
+{
+  MatrixXd v = MatrixXd::Zero(reference.omega.size(), cluster.end - cluster.first);
+  for (int k = cluster.first; k < cluster.end; ++k) v(k, k - cluster.first) = 1.0;
+  return v;
+}
+
+/// The interface modes of a basis, [all modes x p].
+InterfaceBasis interface_of(const ReferenceResponse& reference, const TrialBasis& basis)
 {
   std::vector<int> neglected;
   for (std::size_t k = 0; k < basis.is_kept.size(); ++k)
@@ -182,11 +192,18 @@ void update_interface(const ReferenceResponse& reference, TrialBasis& basis)
     responses.conservativeResize(Eigen::NoChange, responses.cols() + x.cols());
     responses.rightCols(x.cols()) = x(neglected, every);
   }
-  const InterfaceBasis interface = interface_basis(reference.omega(neglected), responses);
-  basis.omega_p = interface.omega;
-  basis.V = MatrixXd::Zero(reference.omega.size(), interface.omega.size());
-  basis.V(neglected, every) = interface.V;
-  basis.outputs.resize(reference.B.cols(), 0);
+  InterfaceBasis interface = interface_basis(reference.omega(neglected), responses);
+  MatrixXd V = MatrixXd::Zero(reference.omega.size(), interface.omega.size());
+  V(neglected, every) = interface.V;
+  interface.V = std::move(V);
+  return interface;
+}
+
+void set_interface(TrialBasis& basis, InterfaceBasis interface)
+{
+  basis.omega_p = std::move(interface.omega);
+  basis.V = std::move(interface.V);
+  basis.outputs.resize(basis.outputs.rows(), 0);
 }
 
 /// Columns of X made orthonormal to V and to each other, without those that depend on them.
@@ -207,6 +224,15 @@ MatrixXd independent(const MatrixXd& V, const MatrixXd& X)
 }
 
 }  // namespace
+
+std::vector<int> moved_modes(const VectorXd& omega, const MatrixXd& B)
+{
+  std::vector<int> moved;
+  for (int k = 0; k < int(omega.size()); ++k)
+    if (omega[k] == 0.0 || !B.row(k).isZero(0.0)) moved.push_back(k);
+  if (moved.empty()) moved.push_back(0);
+  return moved;
+}
 
 ReferenceResponse reference_response(const VectorXd& omega, const MatrixXd& B,
                                      const LoadedDofs& loads, const Tolerance& tolerance)
@@ -270,26 +296,42 @@ TrialBasis with_cluster(const ReferenceResponse& reference, TrialBasis basis,
                         const ModeCluster& cluster)
 {
   basis = with_outputs(reference, std::move(basis));
-  MatrixXd v = MatrixXd::Zero(reference.omega.size(), cluster.end - cluster.first);
-  for (int k = cluster.first; k < cluster.end; ++k) {
-    v(k, k - cluster.first) = 1.0;
-    basis.is_kept[std::size_t(k)] = 1;
-  }
-  extend(reference, basis, addition(reference, basis, std::move(v)));
-  if (!basis.interface.empty()) update_interface(reference, basis);
+  extend(reference, basis, addition(reference, basis, unit_vectors(reference, cluster)));
+  for (int k = cluster.first; k < cluster.end; ++k) basis.is_kept[std::size_t(k)] = 1;
+  if (!basis.interface.empty()) set_interface(basis, interface_of(reference, basis));
   return basis;
 }
 
-TrialBasis with_interface(const ReferenceResponse& reference, const TrialBasis& basis,
+TrialBasis with_interface(const ReferenceResponse& reference, TrialBasis basis,
                           const InterfaceChoice& choice)
 {
-  TrialBasis larger = with_outputs(reference, basis);
+  basis = with_outputs(reference, std::move(basis));
   MatrixXd v = independent(basis.V, undamped_response(reference, basis, choice));
-  if (v.cols() == 0) return larger;
-  extend(reference, larger, addition(reference, larger, std::move(v)));
-  larger.interface.push_back(choice);
-  update_interface(reference, larger);
-  return larger;
+  if (v.cols() == 0) return basis;
+  basis.interface.push_back(choice);
+  InterfaceBasis interface = interface_of(reference, basis);
+  if (interface.omega.size() <= basis.omega_p.size()) {
+    basis.interface.pop_back();
+    return basis;
+  }
+  extend(reference, basis, addition(reference, basis, std::move(v)));
+  set_interface(basis, std::move(interface));
+  return basis;
+}
+
+Growth growth_with(const ReferenceResponse& reference, const TrialBasis& basis,
+                   const ModeCluster& cluster)
+{
+  return {.n_modes = cluster.end - cluster.first,
+          .error = error_with(reference, basis, unit_vectors(reference, cluster))};
+}
+
+Growth growth_with(const ReferenceResponse& reference, const TrialBasis& basis,
+                   const InterfaceChoice& choice)
+{
+  MatrixXd v = independent(basis.V, undamped_response(reference, basis, choice));
+  const auto n = static_cast<int>(v.cols());
+  return {.n_modes = n, .error = n == 0 ? basis.error : error_with(reference, basis, std::move(v))};
 }
 
 MatrixXd undamped_response(const ReferenceResponse& reference, const TrialBasis& basis,

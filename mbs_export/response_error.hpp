@@ -23,6 +23,12 @@ struct ReferenceResponse {
   Eigen::MatrixXd size;             ///< [m x G] reference of relative errors of the response
 };
 
+/// The modes that a load moves, and rigid ones, or the first mode where there are none. The others,
+/// such as modes in the plane of a disc that is loaded along its normal, are zeros in all
+/// responses.
+/// @return ascending, 0-based
+std::vector<int> moved_modes(const Eigen::VectorXd& omega, const Eigen::MatrixXd& B);
+
 /// The reference of a body. Its grid has each resonance that contributes more than the tolerance,
 /// points 1 % beside it on both sides, three frequencies between neighbours, and the ends of the
 /// range.
@@ -37,16 +43,16 @@ struct InterfaceChoice {
   double Omega_0;            ///< rad/s
 };
 
-/// A basis of modes and interface modes, and its error against the reference. It is a value, so
-/// that candidates can be tried.
+/// A basis of modes and interface modes, and its error against the reference.
 struct TrialBasis {
   std::vector<char> is_kept;  ///< [n]
   std::vector<InterfaceChoice> interface;
-  Eigen::MatrixXd V;                        ///< [n x p] interface modes; zero in the kept modes
-  Eigen::VectorXd omega_p;                  ///< [p], rad/s
-  Eigen::MatrixXd outputs;                  ///< B^T V [m x p]; [m x 0]: `with_outputs` gives them
-  std::vector<Eigen::MatrixXcd> remainder;  ///< [G] H minus the response of the basis
-  Eigen::MatrixXd error;                    ///< [m x G] relative error of the response to each load
+  Eigen::MatrixXd V;        ///< [n x p] interface modes; zero in the kept modes
+  Eigen::VectorXd omega_p;  ///< [p], rad/s
+  Eigen::MatrixXd outputs;  ///< B^T V [m x p]; [m x 0]: `with_outputs` gives them
+  /// [G] H minus the response of the basis; symmetric, in the lower triangles
+  std::vector<Eigen::MatrixXcd> remainder;
+  Eigen::MatrixXd error;  ///< [m x G] relative error of the response to each load
 
   int n_kept() const;
   int n_modes() const { return n_kept() + static_cast<int>(omega_p.size()); }
@@ -63,8 +69,21 @@ TrialBasis with_cluster(const ReferenceResponse& reference, TrialBasis basis,
                         const ModeCluster& cluster);
 
 /// The basis with further interface modes. Those that depend on the basis are not added.
-TrialBasis with_interface(const ReferenceResponse& reference, const TrialBasis& basis,
+TrialBasis with_interface(const ReferenceResponse& reference, TrialBasis basis,
                           const InterfaceChoice& choice);
+
+/// What a basis would gain, without the basis.
+struct Growth {
+  int n_modes;            ///< further ones
+  Eigen::MatrixXd error;  ///< [m x G] as TrialBasis::error
+};
+
+/// With the modes of one more cluster, or with further interface modes.
+/// @param basis  `with_outputs`
+Growth growth_with(const ReferenceResponse& reference, const TrialBasis& basis,
+                   const ModeCluster& cluster);
+Growth growth_with(const ReferenceResponse& reference, const TrialBasis& basis,
+                   const InterfaceChoice& choice);
 
 /// The undamped response of the modes that are not kept, [n x k].
 Eigen::MatrixXd undamped_response(const ReferenceResponse& reference, const TrialBasis& basis,

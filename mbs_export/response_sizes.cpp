@@ -93,8 +93,9 @@ ResponseSizes response_sizes(const ReducedSystem& reduced, const BodyOptions& op
   const LoadedDofs loads =
       loaded_dofs(reduced, held_dofs(reduced, options.fixed), options.interface_modes);
   const Shapes shapes = shapes_at(reduced, options.fixed, loads.dofs);
-  const ReferenceResponse reference =
-      reference_response(shapes.omega, shapes.B, loads, options.keep.tolerance.value());
+  const std::vector<int> moved = moved_modes(shapes.omega, shapes.B);
+  const ReferenceResponse reference = reference_response(
+      shapes.omega(moved), shapes.B(moved, every), loads, options.keep.tolerance.value());
   ResponseSizes sizes = response_sizes(reference, *options.keep.tolerance);
   sizes.names = loads.names;
   for (const int dof : loads.dofs) sizes.rows.push_back(master_of(reduced, dof));

@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <utility>
+#include <variant>
 
 #include "common/eigen_every.hpp"
+#include "linear/dense/rank_update.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -29,7 +33,8 @@ struct Place {
 
 struct Candidate {
   std::string name;
-  TrialBasis basis;
+  std::variant<ModeCluster, InterfaceChoice> addition;
+  Growth growth;
 };
 
 Place worst_place(const TrialBasis& basis)
@@ -48,13 +53,17 @@ SelectionStep step_of(const TrialBasis& basis, const std::string& added)
 }
 
 /// What is still to be gained: the sum of log(error / tolerance) where this is positive.
-double excess(const TrialBasis& basis, double tolerance)
+double excess(const MatrixXd& errors, double tolerance)
 {
-  return (basis.error.array() / tolerance).max(1.0).log().sum();
+  double sum = 0.0;
+  for (const double error : errors.reshaped()) {
+    if (std::isnan(error)) return std::numeric_limits<double>::infinity();
+    if (error > tolerance) sum += std::log(error / tolerance);
+  }
+  return sum;
 }
 
-/// The modes of a body that take part in a choice: those that a load moves, and rigid ones. Modes
-/// in the plane of a disc that is loaded along its normal would be zeros in all that follows.
+/// The modes of a body that take part in a choice.
 struct MovedModes {
   std::vector<int> of_all;  ///< ascending, 0-based
   ReferenceResponse reference;
@@ -103,7 +112,8 @@ const LoadGroup* largest_missing_group(const TrialBasis& basis, std::span<const 
   double largest_norm = -1.0;
   for (const LoadGroup& group : groups) {
     const MatrixXd& P = group.patterns;
-    const double norm = (remainder * (P * P.row(place.load).transpose())).norm();
+    const double norm =
+        linear::symmetric_product(remainder, P * P.row(place.load).transpose()).norm();
     if (norm <= largest_norm) continue;
     largest = &group;
     largest_norm = norm;
@@ -130,9 +140,10 @@ std::optional<Candidate> interface_candidate(const ReferenceResponse& reference,
   if (group == nullptr) return std::nullopt;
   const double Omega_0 = group->Omega_0.value_or(reference.Omega[place.g]);
   if (meets_neglected_mode(reference, basis, Omega_0)) return std::nullopt;
-  TrialBasis larger = with_interface(reference, basis, {group->patterns, Omega_0});
-  if (larger.n_modes() <= basis.n_modes()) return std::nullopt;
-  return Candidate{name_of(*group, Omega_0), std::move(larger)};
+  const InterfaceChoice choice{group->patterns, Omega_0};
+  Growth growth = growth_with(reference, basis, choice);
+  if (growth.n_modes == 0) return std::nullopt;
+  return Candidate{name_of(*group, Omega_0), choice, std::move(growth)};
 }
 
 std::vector<Candidate> candidates(const MovedModes& modes, const TrialBasis& basis,
@@ -144,13 +155,20 @@ std::vector<Candidate> candidates(const MovedModes& modes, const TrialBasis& bas
   basis.error.col(0).maxCoeff(&lowest.load);
   std::vector<Candidate> all;
   if (const auto cluster = largest_missing_cluster(reference, basis, worst))
-    all.push_back({name_of(modes, *cluster), with_cluster(reference, basis, *cluster)});
+    all.push_back({name_of(modes, *cluster), *cluster, growth_with(reference, basis, *cluster)});
   if (auto candidate = interface_candidate(reference, basis, groups, worst))
     all.push_back(std::move(*candidate));
   if (worst.g != 0)
     if (auto candidate = interface_candidate(reference, basis, groups, lowest))
       all.push_back(std::move(*candidate));
   return all;
+}
+
+TrialBasis with(const ReferenceResponse& reference, TrialBasis basis, const Candidate& candidate)
+{
+  if (const auto* cluster = std::get_if<ModeCluster>(&candidate.addition))
+    return with_cluster(reference, std::move(basis), *cluster);
+  return with_interface(reference, std::move(basis), std::get<InterfaceChoice>(candidate.addition));
 }
 
 /// Adds modes until the tolerance is met or none is left.
@@ -166,20 +184,34 @@ Path grow(const MovedModes& modes, Path path, double tolerance)
   return path;
 }
 
+/// Adds the candidate with the largest gain for each of its modes.
+/// @return false if there is none but those that depend on the basis
+bool add_best(const MovedModes& modes, Path& path, std::vector<Candidate> all, double tolerance)
+{
+  const double now = excess(path.basis.error, tolerance);
+  const auto gain = [&](const Candidate& candidate) {
+    return (now - excess(candidate.growth.error, tolerance)) / candidate.growth.n_modes;
+  };
+  const auto n_added = [&] {
+    return std::size_t(path.basis.n_kept()) + path.basis.interface.size();
+  };
+  std::ranges::stable_sort(all, std::greater<>(), gain);
+  for (const Candidate& candidate : all) {
+    const std::size_t n_before = n_added();
+    path.basis = with(modes.reference, std::move(path.basis), candidate);
+    if (n_added() == n_before) continue;
+    path.steps.push_back(step_of(path.basis, candidate.name));
+    return true;
+  }
+  return false;
+}
+
 /// Adds candidates until the tolerance is met or nothing is left to add.
 Path grow(const MovedModes& modes, Path path, std::span<const LoadGroup> groups, double tolerance)
 {
   while (path.basis.error.maxCoeff() > tolerance) {
     path.basis = with_outputs(modes.reference, std::move(path.basis));
-    std::vector<Candidate> all = candidates(modes, path.basis, groups);
-    if (all.empty()) break;
-    const auto gain = [&](const Candidate& candidate) {
-      return (excess(path.basis, tolerance) - excess(candidate.basis, tolerance)) /
-             (candidate.basis.n_modes() - path.basis.n_modes());
-    };
-    Candidate& best = *std::ranges::max_element(all, {}, gain);
-    path.basis = std::move(best.basis);
-    path.steps.push_back(step_of(path.basis, best.name));
+    if (!add_best(modes, path, candidates(modes, path.basis, groups), tolerance)) break;
   }
   return path;
 }
@@ -199,13 +231,10 @@ Path resonant_path(const MovedModes& modes)
   return path;
 }
 
-MovedModes moved_modes(const Eigen::VectorXd& omega, const MatrixXd& B, const LoadedDofs& loads,
-                       const Tolerance& tolerance)
+MovedModes modes_of_choice(const Eigen::VectorXd& omega, const MatrixXd& B, const LoadedDofs& loads,
+                           const Tolerance& tolerance)
 {
-  std::vector<int> moved;
-  for (int k = 0; k < int(omega.size()); ++k)
-    if (omega[k] == 0.0 || !B.row(k).isZero(0.0)) moved.push_back(k);
-  if (moved.empty()) moved.push_back(0);
+  std::vector<int> moved = moved_modes(omega, B);
   ReferenceResponse reference = reference_response(omega(moved), B(moved, every), loads, tolerance);
   return {std::move(moved), std::move(reference)};
 }
@@ -225,7 +254,7 @@ const Path& better(const Path& modes, const Path& mixed, double tolerance)
 ToleranceSelection select_by_tolerance(const Eigen::VectorXd& omega, const MatrixXd& B,
                                        const LoadedDofs& loads, const Tolerance& tolerance)
 {
-  const MovedModes moved = moved_modes(omega, B, loads, tolerance);
+  const MovedModes moved = modes_of_choice(omega, B, loads, tolerance);
   const Path start = resonant_path(moved);
   const Path modes = grow(moved, start, tolerance.error);
   const Path mixed = grow(moved, start, loads.groups, tolerance.error);

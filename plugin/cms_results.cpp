@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/index_sets.hpp"
 #include "common/petsc_compat.hpp"
 #include "plugin/cms_impl.hpp"
 #include "plugin/guard.hpp"
@@ -43,55 +44,21 @@ petsc::Matrix dense_rows(MPI_Comm comm, PetscInt n_local, PetscInt n_columns)
   return T;
 }
 
-/// Own indices of a set.
-std::vector<PetscInt> own_indices(IS set)
-{
-  PetscInt n = 0;
-  const PetscInt* indices = nullptr;
-  petsc::check(ISGetLocalSize(set, &n));
-  petsc::check(ISGetIndices(set, &indices));
-  std::vector<PetscInt> own(indices, indices + n);
-  petsc::check(ISRestoreIndices(set, &indices));
-  return own;
-}
-
-/// How many indices the ranks before this one have.
-PetscInt before(const std::vector<PetscInt>& own, MPI_Comm comm)
-{
-  const auto n = static_cast<PetscInt>(own.size());
-  PetscInt sum = 0;
-  MPI_Exscan(&n, &sum, 1, MPIU_INT, MPI_SUM, comm);
-  return petsc::rank(comm) == 0 ? 0 : sum;
-}
-
 /// All rows, each rank its own: no communication.
 petsc::Matrix whole_transformation(const reduce::FactoredBody& body,
                                    const reduce::CraigBamptonBasis& Q_CB,
                                    const std::vector<int>& places)
 {
-  const MPI_Comm comm = petsc::communicator(body.K);
-  PetscInt first = 0, n_local = 0;
-  petsc::check(MatGetOwnershipRange(body.K, &first, nullptr));
+  PetscInt n_local = 0;
   petsc::check(MatGetLocalSize(body.K, &n_local, nullptr));
-  petsc::Matrix T = dense_rows(comm, n_local, static_cast<PetscInt>(places.size()));
-  const linear::LocalRows Psi(Q_CB.Psi);
-  std::optional<linear::LocalRows> Phi;
-  if (Q_CB.modes) Phi.emplace(Q_CB.modes->Phi);
-  const std::vector<PetscInt> masters = own_indices(body.dofs.masters);
-  const std::vector<PetscInt> slaves = own_indices(body.dofs.slaves);
-  const PetscInt first_master = before(masters, comm);
+  petsc::Matrix T =
+      dense_rows(petsc::communicator(body.K), n_local, static_cast<PetscInt>(places.size()));
+  const reduce::BasisColumns columns(Q_CB, body.dofs);
+  const auto n = static_cast<std::size_t>(n_local);
   PetscScalar* values = nullptr;
   petsc::check(MatDenseGetArray(T, &values));
-  for (std::size_t j = 0; j < places.size(); ++j) {
-    PetscScalar* column = values + j * n_local;
-    for (std::size_t m = 0; m < masters.size(); ++m)
-      column[masters[m] - first] = places[j] == first_master + static_cast<int>(m) ? 1.0 : 0.0;
-    for (std::size_t s = 0; s < slaves.size(); ++s) {
-      const auto row = static_cast<PetscInt>(s);
-      column[slaves[s] - first] =
-          places[j] < Psi.n_cols() ? Psi(row, places[j]) : (*Phi)(row, places[j] - Psi.n_cols());
-    }
-  }
+  for (std::size_t j = 0; j < places.size(); ++j)
+    columns.write(places[j], std::span(values + j * n, n));
   petsc::check(MatDenseRestoreArray(T, &values));
   return T;
 }
@@ -118,8 +85,8 @@ petsc::Matrix chosen_rows(const Inside& in, const std::vector<int>& places)
   const std::vector<PetscInt> dofs = checked_output(in);
   const Eigen::MatrixXd rows =
       reduce::basis_rows(in.result->reduction.Q_CB, in.set_up->body.dofs, dofs);
-  const std::vector<PetscInt> own = own_indices(in.output);
-  const PetscInt first = before(own, comm);
+  const std::vector<PetscInt> own = petsc::own_indices(in.output);
+  const PetscInt first = petsc::indices_before(in.output);
   petsc::Matrix T =
       dense_rows(comm, static_cast<PetscInt>(own.size()), static_cast<PetscInt>(places.size()));
   PetscScalar* values = nullptr;

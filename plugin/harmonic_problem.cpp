@@ -1,6 +1,7 @@
 #include "plugin/harmonic_problem.hpp"
 
 #include "common/all_ranks.hpp"
+#include "common/index_sets.hpp"
 
 namespace chladni::plugin {
 
@@ -33,14 +34,8 @@ petsc::Matrix symmetric_operator(Mat A, const cyclic::SectorHarmonic& harmonic)
 std::vector<PetscInt> all_indices(IS set)
 {
   petsc::IndexSet gathered;
-  PetscInt n = 0;
-  const PetscInt* indices = nullptr;
   petsc::check(ISAllGather(set, gathered.put()));
-  petsc::check(ISGetSize(gathered, &n));
-  petsc::check(ISGetIndices(gathered, &indices));
-  std::vector<PetscInt> all(indices, indices + n);
-  petsc::check(ISRestoreIndices(gathered, &indices));
-  return all;
+  return petsc::own_indices(gathered);
 }
 
 HarmonicProblem harmonic_problem(const Sectors& sectors, PetscInt order, const Operators& sector)

@@ -1,7 +1,9 @@
 #include "reduce/basis_rows.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <utility>
+
+#include "common/index_sets.hpp"
 
 namespace chladni::reduce {
 
@@ -9,42 +11,41 @@ using Eigen::MatrixXd;
 
 namespace {
 
-/// Places of global DOFs among the masters or slaves of this rank.
-class LocalPlaces {
- public:
-  explicit LocalPlaces(IS set) : set_(set)
-  {
-    petsc::check(ISGetLocalSize(set_, &n_));
-    petsc::check(ISGetIndices(set_, &indices_));
-  }
-  ~LocalPlaces() { ISRestoreIndices(set_, &indices_); }
-  LocalPlaces(const LocalPlaces&) = delete;
-  LocalPlaces& operator=(const LocalPlaces&) = delete;
-
-  std::optional<PetscInt> find(PetscInt dof) const
-  {
-    const PetscInt* end = indices_ + n_;
-    const PetscInt* it = std::lower_bound(indices_, end, dof);
-    if (it == end || *it != dof) return std::nullopt;
-    return static_cast<PetscInt>(it - indices_);
-  }
-
- private:
-  IS set_;
-  PetscInt n_ = 0;
-  const PetscInt* indices_ = nullptr;
-};
-
-PetscInt masters_before(IS masters)
+/// The place of a DOF among ascending ones.
+std::optional<PetscInt> place(const std::vector<PetscInt>& dofs, PetscInt dof)
 {
-  PetscInt n = 0;
-  PetscInt before = 0;
-  petsc::check(ISGetLocalSize(masters, &n));
-  MPI_Exscan(&n, &before, 1, MPIU_INT, MPI_SUM, petsc::communicator(masters));
-  return petsc::rank(petsc::communicator(masters)) == 0 ? 0 : before;
+  const auto found = std::ranges::lower_bound(dofs, dof);
+  if (found == dofs.end() || *found != dof) return std::nullopt;
+  return static_cast<PetscInt>(found - dofs.begin());
 }
 
 }  // namespace
+
+BasisColumns::BasisColumns(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of)
+    : Psi_(Q_CB.Psi),
+      n_m_(Psi_.n_cols()),
+      first_master_(petsc::indices_before(rows_of.masters)),
+      masters_(petsc::own_indices(rows_of.masters)),
+      slaves_(petsc::own_indices(rows_of.slaves))
+{
+  if (Q_CB.modes) Phi_.emplace(Q_CB.modes->Phi);
+  const PetscInt first = first_master_ + petsc::indices_before(rows_of.slaves);
+  for (std::vector<PetscInt>* dofs : {&masters_, &slaves_})
+    for (PetscInt& dof : *dofs) dof -= first;
+}
+
+void BasisColumns::write(PetscInt column, std::span<double> rows) const
+{
+  const bool is_master = column < n_m_;
+  const PetscInt master = column - first_master_;
+  for (const PetscInt row : masters_) rows[std::size_t(row)] = 0.0;
+  if (is_master && master >= 0 && master < std::ssize(masters_))
+    rows[std::size_t(masters_[std::size_t(master)])] = 1.0;
+  const linear::LocalRows& X = is_master ? Psi_ : *Phi_;
+  const double* values =
+      X.values() + std::size_t(is_master ? column : column - n_m_) * X.leading_dimension();
+  for (std::size_t i = 0; i < slaves_.size(); ++i) rows[std::size_t(slaves_[i])] = values[i];
+}
 
 MatrixXd basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of,
                     const std::vector<PetscInt>& dofs)
@@ -52,15 +53,15 @@ MatrixXd basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of,
   const linear::LocalRows Psi(Q_CB.Psi);
   const std::optional<linear::LocalRows> Phi =
       Q_CB.modes ? std::optional<linear::LocalRows>(std::in_place, Q_CB.modes->Phi) : std::nullopt;
-  const LocalPlaces masters(rows_of.masters);
-  const LocalPlaces slaves(rows_of.slaves);
-  const PetscInt first_master = masters_before(rows_of.masters);
+  const std::vector<PetscInt> masters = petsc::own_indices(rows_of.masters);
+  const std::vector<PetscInt> slaves = petsc::own_indices(rows_of.slaves);
+  const PetscInt first_master = petsc::indices_before(rows_of.masters);
   const PetscInt n_m = Psi.n_cols();
   MatrixXd rows = MatrixXd::Zero(std::ssize(dofs), n_m + Q_CB.n_modes());
   std::vector<std::pair<PetscInt, PetscInt>> own;  // row here and row among this rank's slaves
   for (PetscInt i = 0; i < rows.rows(); ++i) {
-    if (const auto m = masters.find(dofs[i])) rows(i, first_master + *m) = 1.0;
-    if (const auto s = slaves.find(dofs[i])) own.emplace_back(i, *s);
+    if (const auto m = place(masters, dofs[i])) rows(i, first_master + *m) = 1.0;
+    if (const auto s = place(slaves, dofs[i])) own.emplace_back(i, *s);
   }
   for (PetscInt j = 0; j < n_m; ++j)
     for (const auto& [i, s] : own) rows(i, j) = Psi(s, j);

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "common/index_sets.hpp"
+
 namespace chladni::reduce {
 
 using Eigen::MatrixXd;
@@ -12,22 +14,11 @@ namespace {
 struct OwnRows {
   std::vector<PetscInt> rows;
   PetscInt before;  ///< rows of the set on the ranks before
-  PetscInt n_all;
+  PetscInt n_all = 0;
 
-  OwnRows(Mat X, IS set)
+  OwnRows(Mat X, IS set) : rows(petsc::own_rows(set, X)), before(petsc::indices_before(set))
   {
-    PetscInt first = 0, n = 0;
-    const PetscInt* indices = nullptr;
-    petsc::check(MatGetOwnershipRange(X, &first, nullptr));
-    petsc::check(ISGetLocalSize(set, &n));
     petsc::check(ISGetSize(set, &n_all));
-    petsc::check(ISGetIndices(set, &indices));
-    for (PetscInt i = 0; i < n; ++i) rows.push_back(indices[i] - first);
-    petsc::check(ISRestoreIndices(set, &indices));
-    const MPI_Comm comm = petsc::communicator(X);
-    before = 0;
-    MPI_Exscan(&n, &before, 1, MPIU_INT, MPI_SUM, comm);
-    if (petsc::rank(comm) == 0) before = 0;
   }
   PetscInt size() const { return static_cast<PetscInt>(rows.size()); }
 };
@@ -60,6 +51,19 @@ MatrixXd master_rows(Mat X, const DofPartition& dofs)
   }
   linear::sum_over_ranks(linear::values_of(X_m), petsc::communicator(X));
   return X_m;
+}
+
+petsc::Matrix block_of(const linear::LocalRows& X, const std::vector<PetscInt>& rows,
+                       std::span<const int> columns, Mat like)
+{
+  petsc::Matrix block = linear::uninitialized_dense(like, std::ssize(columns));
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArrayWrite(block, &values));
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      values[i + j * rows.size()] = X(rows[i], columns[j]);
+  petsc::check(MatDenseRestoreArrayWrite(block, &values));
+  return block;
 }
 
 void set_rows(Mat X, const DofPartition& dofs, const MatrixXd& X_m, Mat X_s)

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "linear/kernels/dense_matrices.hpp"
 #include "reduce/partition.hpp"
 
@@ -15,6 +18,11 @@ petsc::Matrix slave_rows(Mat X, const DofPartition& dofs, Mat like);
 /// @return [n_m x columns of X], on every rank
 /// @note   Collective.
 Eigen::MatrixXd master_rows(Mat X, const DofPartition& dofs);
+
+/// Copies some rows of this rank and some columns out of a dense matrix.
+/// @param like  a matrix with so many rows
+petsc::Matrix block_of(const linear::LocalRows& X, const std::vector<PetscInt>& rows,
+                       std::span<const int> columns, Mat like);
 
 /// Writes X_m to the rows of the masters in X and X_s to those of the slaves.
 void set_rows(Mat X, const DofPartition& dofs, const Eigen::MatrixXd& X_m, Mat X_s);

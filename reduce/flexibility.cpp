@@ -1,11 +1,15 @@
 #include "reduce/flexibility.hpp"
 
-#include <petsc/private/matimpl.h>
-
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numeric>
+#include <utility>
 
-#include "linear/cholesky/cholesky_callbacks.hpp"
+#include "common/index_sets.hpp"
+#include "linear/cholesky/part_solver.hpp"
+#include "linear/kernels/decoupled_rows.hpp"
+#include "linear/kernels/gather.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "linear/kernels/symmetric_eigen.hpp"
@@ -97,62 +101,170 @@ petsc::Matrix rigid_motions(const WholeSystem& body, Mat Psi, const MatrixXd& R_
   return normal;
 }
 
-}  // namespace
+/// The number of elastic modes of a part: its rows without those that are held and its rigid
+/// motions, of which R R^T M is the projector.
+PetscInt n_elastic_in(const petsc::Matrix& R, const petsc::Matrix& MR,
+                      const std::vector<PetscInt>& masters, const std::vector<int>& held)
+{
+  PetscInt n = 0;
+  petsc::check(MatGetSize(R, &n, nullptr));
+  const auto n_held = std::ranges::count_if(
+      masters, [&](PetscInt master) { return std::ranges::binary_search(held, master); });
+  const std::vector<double> shares = linear::column_products(R, MR);
+  const double n_rigid = std::accumulate(shares.begin(), shares.end(), 0.0);
+  return n - static_cast<PetscInt>(n_held + std::lround(n_rigid));
+}
 
-struct Flexibility::Parts {
-  const WholeSystem& body;
-  Mat Psi;
-  Mat R;
-  petsc::Matrix MR;
-  MatrixXd K_G_inverse;
-
-  /// U = A F.
-  void apply(Mat F, Mat U) const
-  {
-    petsc::Matrix f;
-    petsc::check(MatDuplicate(F, MAT_COPY_VALUES, f.put()));
-    linear::add_product(-1.0, MR, linear::inner_product(R, f), f);
-    const petsc::Matrix f_s = slave_rows(f, body.dofs, body.K_blocks.ss);
-    const petsc::Matrix u_s =
-        linear::uninitialized_dense(body.K_blocks.ss, linear::LocalRows(f_s).n_cols());
-    petsc::check(MatMatSolve(body.K_ss.factor(), f_s, u_s));
-    const MatrixXd held = linear::inner_product_sparse(u_s, body.K_blocks.sm);
-    const MatrixXd u_m = linear::product(K_G_inverse, master_rows(f, body.dofs) - held.transpose());
-    linear::add_product(1.0, Psi, u_m, u_s);
-    set_rows(U, body.dofs, u_m, u_s);
-    linear::add_product(-1.0, R, linear::inner_product(MR, U), U);
-  }
+/// All rows, or those of a part, and what A needs of them; refers to its matrices.
+struct Rows {
+  const linear::BlockSolve& solve;  ///< with K_ss
+  const DofPartition& dofs;
+  Mat K_sm, Psi, R, MR;
+  const MatrixXd& K_G_inverse;
 };
+
+/// U = A F.
+void apply(const Rows& rows, Mat F, Mat U)
+{
+  petsc::Matrix f;
+  petsc::check(MatDuplicate(F, MAT_COPY_VALUES, f.put()));
+  linear::add_product(-1.0, rows.MR, linear::inner_product(rows.R, f), f);
+  const petsc::Matrix f_s = slave_rows(f, rows.dofs, rows.K_sm);
+  const petsc::Matrix u_s = linear::uninitialized_dense(rows.K_sm, linear::LocalRows(f_s).n_cols());
+  rows.solve(f_s, u_s);
+  const MatrixXd held = linear::inner_product_sparse(u_s, rows.K_sm);
+  const MatrixXd u_m =
+      linear::product(rows.K_G_inverse, master_rows(f, rows.dofs) - held.transpose());
+  linear::add_product(1.0, rows.Psi, u_m, u_s);
+  set_rows(U, rows.dofs, u_m, u_s);
+  linear::add_product(-1.0, rows.R, linear::inner_product(rows.MR, U), U);
+}
+
+/// Copies of the rows of a part.
+struct PartRows {
+  linear::BlockSolve solve;
+  DofPartition dofs;  ///< counted within the part
+  petsc::Matrix K_sm, Psi, R, MR;
+  MatrixXd K_G_inverse;
+};
+
+petsc::IndexSet index_set(const std::vector<PetscInt>& own, MPI_Comm comm)
+{
+  petsc::IndexSet set;
+  petsc::check(ISCreateGeneral(comm, static_cast<PetscInt>(own.size()), own.data(),
+                               PETSC_COPY_VALUES, set.put()));
+  return set;
+}
+
+/// Rows of a part that are masters, or slaves.
+struct Members {
+  std::vector<PetscInt> places;   ///< among all masters or slaves of this rank
+  std::vector<PetscInt> in_part;  ///< global rows within the part
+};
+
+/// @param rows   of the part, own ones
+/// @param among  all masters, or slaves
+Members members(const std::vector<PetscInt>& rows, PetscInt first_row, IS among)
+{
+  const std::vector<PetscInt> all = petsc::own_indices(among);
+  Members some;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto found = std::ranges::lower_bound(all, rows[i]);
+    if (found == all.end() || *found != rows[i]) continue;
+    some.places.push_back(static_cast<PetscInt>(found - all.begin()));
+    some.in_part.push_back(first_row + static_cast<PetscInt>(i));
+  }
+  return some;
+}
+
+std::vector<PetscInt> shifted(std::vector<PetscInt> numbers, PetscInt by)
+{
+  for (PetscInt& number : numbers) number += by;
+  return numbers;
+}
+
+petsc::Matrix rows_of(Mat X, IS part, Mat like)
+{
+  const linear::LocalRows x(X);
+  std::vector<int> columns(static_cast<std::size_t>(x.n_cols()));
+  std::iota(columns.begin(), columns.end(), 0);
+  return block_of(x, petsc::own_rows(part, X), columns, like);
+}
+
+}  // namespace
 
 Flexibility::Flexibility(const WholeSystem& body, Mat Psi, const GuyanStiffness& K_G,
                          const std::vector<int>& held)
+    : body_(body), Psi_(Psi), held_(held)
 {
   const MatrixXd R_m = at_rest(K_G.R, held);
   R_ = rigid_motions(body, Psi, R_m);
-  parts_ = std::make_unique<Parts>(Parts{.body = body,
-                                         .Psi = Psi,
-                                         .R = R_,
-                                         .MR = linear::sparse_product(body.M, R_),
-                                         .K_G_inverse = inverse(K_G.K, R_m.cols(), held)});
-  PetscInt n_local = 0, n = 0;
-  petsc::check(MatGetLocalSize(body.K, &n_local, nullptr));
+  MR_ = linear::sparse_product(body.M, R_);
+  K_G_inverse_ = inverse(K_G.K, R_m.cols(), held);
+  PetscInt n = 0;
   petsc::check(MatGetSize(body.K, &n, nullptr));
   n_elastic_ = n - static_cast<PetscInt>(std::ssize(held) + R_m.cols());
-  petsc::check(MatCreateShell(petsc::communicator(body.K), n_local, n_local, n, n, parts_.get(),
-                              factor_.put()));
-  PetscErrorCode (*solve)(Mat, Mat, Mat) = [](Mat A, Mat F, Mat U) {
-    return linear::guarded([&] {
-      const Parts* parts = nullptr;
-      petsc::check(MatShellGetContext(A, &parts));
-      parts->apply(F, U);
-    });
-  };
-  petsc::check(MatShellSetOperation(factor_, MATOP_MAT_SOLVE, reinterpret_cast<void (*)()>(solve)));
-  petsc::check(MatSetUp(factor_));
-  static_cast<Mat>(factor_)->factortype =
-      MAT_FACTOR_CHOLESKY;  // without which PETSc solves nothing
 }
 
-Flexibility::~Flexibility() = default;
+linear::BlockSolve Flexibility::solver() const
+{
+  const linear::BlockSolve solve = [factor = body_.K_ss.factor()](Mat B, Mat X) {
+    petsc::check(MatMatSolve(factor, B, X));
+  };
+  return [this, solve](Mat F, Mat U) {
+    apply({.solve = solve,
+           .dofs = body_.dofs,
+           .K_sm = body_.K_blocks.sm,
+           .Psi = Psi_,
+           .R = R_,
+           .MR = MR_,
+           .K_G_inverse = K_G_inverse_},
+          F, U);
+  };
+}
+
+std::vector<linear::DecoupledPart> Flexibility::parts() const
+{
+  if (!linear::solves_for_parts(body_.K_ss.factor())) return {};
+  const MPI_Comm comm = petsc::communicator(body_.K);
+  std::vector<linear::DecoupledPart> parts;
+  for (petsc::IndexSet& rows : linear::decoupled_rows(body_.K, body_.M)) {
+    const std::vector<PetscInt> own = petsc::own_indices(rows);
+    const PetscInt first_row = petsc::indices_before(rows);
+    const Members masters = members(own, first_row, body_.dofs.masters),
+                  slaves = members(own, first_row, body_.dofs.slaves);
+    const std::vector<PetscInt> numbers = linear::gather_on_all(
+        shifted(masters.places, petsc::indices_before(body_.dofs.masters)), MPIU_INT, comm);
+    const petsc::IndexSet slave_numbers =
+        index_set(shifted(slaves.places, petsc::indices_before(body_.dofs.slaves)), comm);
+    const petsc::IndexSet master_numbers =
+        index_set(shifted(masters.places, petsc::indices_before(body_.dofs.masters)), comm);
+    auto part = std::make_shared<PartRows>();
+    part->solve = linear::part_solver(body_.K_ss.factor(), slave_numbers);
+    part->dofs = {.masters = index_set(masters.in_part, comm),
+                  .slaves = index_set(slaves.in_part, comm)};
+    petsc::check(MatCreateSubMatrix(body_.K_blocks.sm, slave_numbers, master_numbers,
+                                    MAT_INITIAL_MATRIX, part->K_sm.put()));
+    part->Psi = block_of(linear::LocalRows(Psi_), slaves.places, numbers, part->K_sm);
+    petsc::Matrix M;
+    petsc::check(MatCreateSubMatrix(body_.M, rows, rows, MAT_INITIAL_MATRIX, M.put()));
+    part->R = rows_of(R_, rows, M);
+    part->MR = rows_of(MR_, rows, M);
+    part->K_G_inverse = K_G_inverse_(numbers, numbers);
+    const PetscInt most = n_elastic_in(part->R, part->MR, numbers, held_);
+    const linear::BlockSolve solve = [part](Mat F, Mat U) {
+      apply({.solve = part->solve,
+             .dofs = part->dofs,
+             .K_sm = part->K_sm,
+             .Psi = part->Psi,
+             .R = part->R,
+             .MR = part->MR,
+             .K_G_inverse = part->K_G_inverse},
+            F, U);
+    };
+    parts.push_back({.rows = std::move(rows), .solve = solve, .most = most});
+  }
+  return parts;
+}
 
 }  // namespace chladni::reduce

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
+#include "linear/lanczos/parted_lanczos.hpp"
 #include "reduce/mixed_interface.hpp"
 
 namespace chladni::reduce {
@@ -22,21 +22,26 @@ class Flexibility {
   /// @throws chladni::Error when a rigid motion has no mass.
   Flexibility(const WholeSystem& body, Mat Psi, const GuyanStiffness& K_G,
               const std::vector<int>& held);
-  ~Flexibility();
   Flexibility(const Flexibility&) = delete;
   Flexibility& operator=(const Flexibility&) = delete;
 
-  /// A matrix that applies A through MatMatSolve, as a factor does; A R = 0.
-  Mat factor() const { return factor_; }
+  /// U = A F in all DOFs; A R = 0. This object must outlive the function, as it must those of the
+  /// parts.
+  linear::BlockSolve solver() const;
+  /// The same for the rows of each part into which K and M fall, such as bending and motion in the
+  /// plane; empty if all rows are one part, or if the factor of K_ss does not solve for parts.
+  std::vector<linear::DecoupledPart> parts() const;
   /// [n x r] rigid motions in all DOFs, R^T M R = I.
   Mat R() const { return R_; }
   /// Number of elastic modes.
   PetscInt n_elastic() const { return n_elastic_; }
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
-  petsc::Matrix R_, factor_;
+  const WholeSystem& body_;
+  Mat Psi_;
+  std::vector<int> held_;
+  petsc::Matrix R_, MR_;
+  Eigen::MatrixXd K_G_inverse_;
   PetscInt n_elastic_ = 0;
 };
 

@@ -10,6 +10,7 @@
 
 #include "common/all_ranks.hpp"
 #include "common/checked_count.hpp"
+#include "common/index_sets.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "reduce/indefinite_factor.hpp"
@@ -90,13 +91,8 @@ class FreeRows {
  public:
   FreeRows(const FreeDofs& free, Mat block)
   {
-    PetscInt n = 0;
-    const PetscInt* rows = nullptr;
     petsc::check(MatGetOwnershipRange(block, &first_, nullptr));
-    petsc::check(ISGetLocalSize(free.indices, &n));
-    petsc::check(ISGetIndices(free.indices, &rows));
-    dofs_.assign(rows, rows + n);
-    petsc::check(ISRestoreIndices(free.indices, &rows));
+    dofs_ = petsc::own_indices(free.indices);
   }
 
   /// Of a DOF that this rank owns and nothing holds.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/index_sets.hpp"
 #include "linear/cholesky/factorization.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "linear/kernels/dense_matrices.hpp"
@@ -23,13 +24,7 @@ petsc::Matrix free_block(Mat A, const FreeDofs& free)
 /// The free rows of the shapes.
 petsc::Matrix free_rows(const ShapesNearModes& shapes, const FreeDofs& free, Mat K_ff)
 {
-  PetscInt n = 0;
-  const PetscInt* indices = nullptr;
-  petsc::check(ISGetLocalSize(free.indices, &n));
-  petsc::check(ISGetIndices(free.indices, &indices));
-  const std::vector<PetscInt> dofs(indices, indices + n);
-  petsc::check(ISRestoreIndices(free.indices, &indices));
-  const MatrixXd rows = shapes.rows(dofs);
+  const MatrixXd rows = shapes.rows(petsc::own_indices(free.indices));
   petsc::Matrix X = linear::uninitialized_dense(K_ff, shapes.n_shapes);
   PetscScalar* values = nullptr;
   petsc::check(MatDenseGetArrayWrite(X, &values));

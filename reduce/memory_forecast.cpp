@@ -63,12 +63,15 @@ MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, Mat M_ss,
   const linear::SolverOptions& solver = options.solver;
   if (solver.lanczos.solver == linear::ModeSolver::block_lanczos &&
       linear::will_solve_for_parts(solver.petsc)) {
-    const std::vector<petsc::IndexSet> parts = linear::decoupled_rows(K_ss, M_ss);
+    const bool is_free = has_free_masters(options.basis.method);
+    const Mat K = is_free ? body.K : K_ss, M = is_free ? body.M : M_ss;
+    const std::vector<petsc::IndexSet> parts = linear::decoupled_rows(K, M);
     if (!parts.empty()) {
-      PetscInt n_largest = 0;
+      PetscInt n_largest = 0, n_all = 0;
       petsc::check(ISGetSize(parts.front(), &n_largest));
-      largest_part_ = n_largest / n_slaves_;
-      mass_of_parts_ = own_MiB(M_ss);
+      petsc::check(MatGetSize(K, &n_all, nullptr));
+      largest_part_ = double(n_largest) / n_all;
+      mass_of_parts_ = own_MiB(M);
     }
   }
   let_go_MiB_ = keeps ? 0.0 : K_MiB_ + M_MiB_;
@@ -96,8 +99,11 @@ double MemoryForecast::beside_MiB(double n_modes) const
   constexpr double blocks_of_lanczos = 16.0;
   n_modes = std::min(n_modes, n_slaves_);
   const double basis = basis_columns(n_modes);
-  const double there = options_.basis.tolerance ? n_masters_ : 0.0;             // Psi comes first
-  const double of_parts = largest_part_ < 1.0 ? largest_part_ * n_modes : 0.0;  // beside Phi
+  const bool is_free = has_free_masters(options_.basis.method);
+  const double there = options_.basis.tolerance || is_free ? n_masters_ : 0.0;  // Psi comes first
+  // Beside Phi, and beside Psi.
+  const double of_parts =
+      largest_part_ < 1.0 ? largest_part_ * (n_modes + (is_free ? n_masters_ : 0.0)) : 0.0;
   const double in_search =
       n_modes > 0.0 ? there + basis + n_modes + of_parts + blocks_of_lanczos : 0.0;
   const double kept = n_masters_ + n_modes;

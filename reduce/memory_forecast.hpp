@@ -34,7 +34,7 @@ class MemoryForecast {
   ReductionOptions options_;
   double basis_columns(double n_modes) const;
 
-  double largest_part_ = 1.0;   ///< share of the slaves in the largest uncoupled part
+  double largest_part_ = 1.0;   ///< share of the rows in the largest uncoupled part
   double mass_of_parts_ = 0.0;  ///< MiB
   double n_masters_, n_slaves_, column_MiB_, K_MiB_, M_MiB_, let_go_MiB_;
 };

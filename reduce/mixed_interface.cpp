@@ -5,11 +5,10 @@
 #include <numbers>
 
 #include "linear/kernels/orthonormalisation.hpp"
-#include "linear/kernels/part_traces.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "linear/kernels/symmetric_eigen.hpp"
-#include "linear/lanczos/block_lanczos.hpp"
+#include "linear/lanczos/parted_lanczos.hpp"
 #include "reduce/block_rows.hpp"
 #include "reduce/flexibility.hpp"
 #include "reduce/guyan_stiffness.hpp"
@@ -46,32 +45,46 @@ PetscInt n_wanted(const ReduceOptions& wanted, const std::vector<double>& lambda
                                lambda.begin());
 }
 
+/// The lambda up to which no pair may be missing.
+double lambda_wanted(const ReduceOptions& wanted, const std::vector<double>& lambda)
+{
+  if (!wanted.modes) return lambda_max(wanted);
+  if (*wanted.modes > std::ssize(lambda)) return linear::all_of_them;
+  return *wanted.modes > 0 ? lambda[std::size_t(*wanted.modes - 1)] : 0.0;
+}
+
 struct ElasticPairs {
   linear::EigenPairs pairs;
   double lambda_left_out = std::numeric_limits<double>::infinity();
 };
+
+linear::PartedLanczos parted(const Flexibility& flexibility, Mat M)
+{
+  const linear::BlockLanczosOptions options{.n_pairs = 0, .tolerance = tolerance};
+  std::vector<linear::DecoupledPart> parts = flexibility.parts();
+  if (parts.empty()) return {flexibility.solver(), flexibility.n_elastic(), M, options};
+  return {std::move(parts), M, options};
+}
 
 /// The lowest elastic modes, as many or as far up as wanted, with all partners of the last one:
 /// which combinations of some of them came first would be chance.
 ElasticPairs elastic_pairs(const WholeSystem& body, const Flexibility& flexibility,
                            const ReduceOptions& wanted)
 {
-  const PetscInt n = flexibility.n_elastic();
-  linear::BlockLanczos lanczos(flexibility.factor(), body.M,
-                               {.n_pairs = 0, .tolerance = tolerance});
+  linear::PartedLanczos lanczos = parted(flexibility, body.M);
+  if (wanted.modes)
+    lanczos.converge(*wanted.modes + 2);
+  else
+    lanczos.converge_beyond(lambda_max(wanted));
   ElasticPairs found;
   linear::EigenPairs& pairs = found.pairs;
-  constexpr PetscInt least_more = 8;
-  for (PetscInt n_asked = wanted.modes ? *wanted.modes + 2 : wanted.expected;;
-       n_asked += std::max<PetscInt>(n_asked / 4, least_more)) {
-    lanczos.converge(std::min(n_asked, n));
+  constexpr PetscInt more = 4;
+  for (;; lanczos.converge(lanczos.n_pairs() + more)) {
     pairs.lambda.clear();
     for (PetscInt i = 0; i < lanczos.n_pairs(); ++i) pairs.lambda.push_back(lanczos.lambda(i));
     const PetscInt n_found = lanczos.n_pairs(), n_taken = n_wanted(wanted, pairs.lambda);
-    const bool are_all = n_found < n_asked;
-    if (are_all && !(wanted.modes && n_taken <= n_found))
-      lanczos.require_resolved(wanted.modes ? linear::all_of_them : lambda_max(wanted));
-    if (n_taken > n_found) {
+    lanczos.require_resolved(lambda_wanted(wanted, pairs.lambda));
+    if (n_taken > n_found) {  // all there are
       throw Error(fmt::format(
           "mixed_interface_modes: {} of {} elastic modes found; there are no more: ask for fewer",
           n_found, n_taken));
@@ -84,11 +97,11 @@ ElasticPairs elastic_pairs(const WholeSystem& body, const Flexibility& flexibili
           *wanted.cutoff_Hz, std::sqrt(pairs.lambda.front()) / (2.0 * std::numbers::pi)));
     }
     const PetscInt n_complete = complete_cluster(pairs.lambda, n_taken);
-    if (n_complete == n_found && !are_all) continue;  // the cluster of the last one may go on
+    // The cluster of the last one may go on.
+    if (n_complete == n_found && !lanczos.has_all()) continue;
     if (n_complete < n_found) found.lambda_left_out = pairs.lambda[std::size_t(n_complete)];
     pairs.lambda.resize(n_complete);
     pairs.X = lanczos.vectors(0, n_complete);
-    linear::clear_part_traces(body.K, body.M, pairs.X);
     return found;
   }
 }

@@ -4,25 +4,14 @@
 #include <numeric>
 #include <utility>
 
+#include "common/index_sets.hpp"
 #include "linear/cholesky/part_solver.hpp"
 #include "linear/kernels/decoupled_rows.hpp"
+#include "reduce/block_rows.hpp"
 
 namespace chladni::reduce {
 
 namespace {
-
-/// Rows of this rank, counted from its first.
-std::vector<PetscInt> own_rows(IS rows, PetscInt first)
-{
-  PetscInt n = 0;
-  const PetscInt* global = nullptr;
-  petsc::check(ISGetLocalSize(rows, &n));
-  petsc::check(ISGetIndices(rows, &global));
-  std::vector<PetscInt> own(global, global + n);
-  petsc::check(ISRestoreIndices(rows, &global));
-  for (PetscInt& row : own) row -= first;
-  return own;
-}
 
 /// For each of some parts which columns are not zero in its rows, the same on every rank.
 class Touched {
@@ -68,7 +57,7 @@ Parts parts_of(const std::vector<petsc::IndexSet>& sets, const Blocks& M,
               .modes = Touched(sets.size(), Q_CB.n_modes())};
   std::vector<std::size_t> part_of(std::size_t(last - first));
   for (std::size_t p = 0; p < sets.size(); ++p) {
-    parts.rows.push_back(own_rows(sets[p], first));
+    parts.rows.push_back(petsc::own_rows(sets[p], M.ss));
     for (const PetscInt i : parts.rows.back()) part_of[std::size_t(i)] = p;
     parts.masters.add(p, parts.rows.back(), Psi);
     if (Q_CB.modes) parts.modes.add(p, parts.rows.back(), linear::LocalRows(Q_CB.modes->Phi));
@@ -102,21 +91,6 @@ petsc::Matrix submatrix(Mat A, IS rows, IS columns)
   petsc::Matrix part;
   petsc::check(MatCreateSubMatrix(A, rows, columns, MAT_INITIAL_MATRIX, part.put()));
   return part;
-}
-
-/// Rows of this rank and some columns of a dense matrix.
-/// @param like  a matrix with so many rows
-petsc::Matrix block_of(const linear::LocalRows& X, const std::vector<PetscInt>& rows,
-                       std::span<const int> columns, Mat like)
-{
-  petsc::Matrix block = linear::uninitialized_dense(like, std::ssize(columns));
-  PetscScalar* values = nullptr;
-  petsc::check(MatDenseGetArrayWrite(block, &values));
-  for (std::size_t j = 0; j < columns.size(); ++j)
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      values[i + j * rows.size()] = X(rows[i], columns[j]);
-  petsc::check(MatDenseRestoreArrayWrite(block, &values));
-  return block;
 }
 
 std::vector<int> all(PetscInt n)
@@ -170,12 +144,12 @@ MovingSlaves::MovingSlaves(const linear::Factorization& K_ss, const Blocks& M,
 petsc::Matrix MovingSlaves::rows_of(Mat X) const
 {
   const linear::LocalRows x(X);
-  return block_of(x, own_rows(rows_, first_row(X)), all(x.n_cols()), K_ss_);
+  return block_of(x, petsc::own_rows(rows_, X), all(x.n_cols()), K_ss_);
 }
 
 petsc::Matrix MovingSlaves::of_all(Mat X, PetscInt first, PetscInt last) const
 {
-  const std::vector<PetscInt> own = own_rows(rows_, first_row(factor_.matrix()));
+  const std::vector<PetscInt> own = petsc::own_rows(rows_, factor_.matrix());
   const linear::LocalRows x(X);
   petsc::Matrix every = linear::uninitialized_dense(factor_.matrix(), last - first);
   petsc::check(MatZeroEntries(every));

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "common/index_sets.hpp"
 #include "linear/kernels/gather.hpp"
 
 namespace chladni::reduce {
@@ -23,12 +24,7 @@ std::array<PetscInt, 2> count_faults(const std::vector<PetscInt>& sorted, PetscI
 
 std::vector<PetscInt> sorted_indices(IS set)
 {
-  PetscInt n = 0;
-  const PetscInt* indices = nullptr;
-  petsc::check(ISGetLocalSize(set, &n));
-  petsc::check(ISGetIndices(set, &indices));
-  std::vector<PetscInt> sorted(indices, indices + n);
-  petsc::check(ISRestoreIndices(set, &indices));
+  std::vector<PetscInt> sorted = petsc::own_indices(set);
   std::ranges::sort(sorted);
   return sorted;
 }
@@ -91,9 +87,7 @@ PetscInt dof_of_slave(const DofPartition& dofs, PetscInt row)
 {
   const MPI_Comm comm = petsc::communicator(dofs.slaves);
   const std::vector<PetscInt> own = sorted_indices(dofs.slaves);
-  auto first = static_cast<PetscInt>(own.size());
-  MPI_Exscan(MPI_IN_PLACE, &first, 1, MPIU_INT, MPI_SUM, comm);
-  if (petsc::rank(comm) == 0) first = 0;
+  const PetscInt first = petsc::indices_before(dofs.slaves);
   PetscInt dof = row >= first && row < first + std::ssize(own) ? own[row - first] : -1;
   MPI_Allreduce(MPI_IN_PLACE, &dof, 1, MPIU_INT, MPI_MAX, comm);
   return dof;

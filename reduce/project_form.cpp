@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "linear/kernels/small_matrices.hpp"
+#include "reduce/basis_rows.hpp"
 
 namespace chladni::reduce {
 
@@ -42,6 +43,14 @@ MatrixXd project_form(const CraigBamptonBasis& Q_CB, const Blocks& A, linear::Fo
   std::vector<Mat> columns;
   for (const Columns& part : X) columns.push_back(part.X);
   return A_r + linear::parted_form(columns, A.ss, symmetry);
+}
+
+std::vector<MatrixXd> project_forms(const CraigBamptonBasis& Q_CB, const DofPartition& dofs,
+                                    std::span<const linear::SparseForm> forms)
+{
+  const BasisColumns columns(Q_CB, dofs);
+  const auto write = [&](PetscInt j, std::span<double> rows) { columns.write(j, rows); };
+  return linear::component_forms({.n_columns = columns.size(), .write = write}, forms);
 }
 
 MatrixXd project_vectors(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, Mat V)

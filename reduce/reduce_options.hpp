@@ -38,7 +38,7 @@ struct ReduceOptions {
   int at_least = 0;
   /// With cutoff_Hz: methods with free masters may return the static shapes alone.
   bool may_have_none = false;
-  /// With cutoff_Hz: number of modes that the search begins with.
+  /// With cutoff_Hz: number of fixed-interface modes that the search begins with.
   int expected = 32;
   /// The modes below this frequency get an error estimate, however many modes the basis has.
   /// Without it, those up to the last mode of the basis, or up to the end of the tolerance's range.

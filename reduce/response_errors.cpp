@@ -39,7 +39,12 @@ MatrixXd responses(const ReducedModel& model, const MatrixXd& F, double Omega,
     MatrixXd all = MatrixXd::Zero(model.K.rows(), F.cols());
     all.topRows(F.rows()) = F;
     const MatrixXd loads = all(free, every);
-    X(free, every) = linear::solution(A, loads);
+    MatrixXd of_free = MatrixXd::Zero(loads.rows(), loads.cols());
+    for (const std::vector<Index>& set : linear::decoupled_coordinates(A, A)) {
+      const MatrixXd of_set = loads(set, every);
+      if (!of_set.isZero(0.0)) of_free(set, every) = linear::solution(A(set, set), of_set);
+    }
+    X(free, every) = of_free;
   });
   return of_first_rank(std::move(X), comm);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/eigen_every.hpp"
+#include "common/index_sets.hpp"
 #include "linear/kernels/decoupled_rows.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
@@ -89,17 +90,11 @@ struct CoupledRows {
 /// Number of the set that each slave of this rank is in.
 std::vector<int> set_of_rows(const std::vector<petsc::IndexSet>& sets, Mat K_ss)
 {
-  PetscInt begin = 0, end = 0;
-  petsc::check(MatGetOwnershipRange(K_ss, &begin, &end));
-  std::vector<int> set_of_row(std::size_t(end - begin), 0);
-  for (std::size_t k = 0; k < sets.size(); ++k) {
-    PetscInt n = 0;
-    const PetscInt* rows = nullptr;
-    petsc::check(ISGetLocalSize(sets[k], &n));
-    petsc::check(ISGetIndices(sets[k], &rows));
-    for (PetscInt i = 0; i < n; ++i) set_of_row[rows[i] - begin] = static_cast<int>(k);
-    petsc::check(ISRestoreIndices(sets[k], &rows));
-  }
+  PetscInt n = 0;
+  petsc::check(MatGetLocalSize(K_ss, &n, nullptr));
+  std::vector<int> set_of_row(std::size_t(n), 0);
+  for (std::size_t k = 0; k < sets.size(); ++k)
+    for (const PetscInt i : petsc::own_rows(sets[k], K_ss)) set_of_row[i] = static_cast<int>(k);
   return set_of_row;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/index_sets.hpp"
 #include "linear/cholesky/factorization.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/shifted.hpp"
@@ -119,25 +120,21 @@ linear::EigenPairs lowest_pairs(Mat K, Mat M, const NaturalModesOptions& options
 
 petsc::Matrix of_all_dofs(Mat X, const FreeDofs& free, Mat K, PetscInt n)
 {
-  PetscInt n_local = 0, n_global = 0, first = 0, n_free = 0;
+  PetscInt n_local = 0, n_global = 0;
   petsc::check(MatGetLocalSize(K, &n_local, nullptr));
   petsc::check(MatGetSize(K, &n_global, nullptr));
-  petsc::check(MatGetOwnershipRange(K, &first, nullptr));
   petsc::Matrix all;
   petsc::check(MatCreateDense(petsc::communicator(K), n_local, PETSC_DECIDE, n_global, n, nullptr,
                               all.put()));
-  petsc::check(ISGetLocalSize(free.indices, &n_free));
-  const PetscInt* rows = nullptr;
-  petsc::check(ISGetIndices(free.indices, &rows));
+  const std::vector<PetscInt> rows = petsc::own_rows(free.indices, K);
   const linear::LocalRows from(X);
   PetscScalar* values = nullptr;
   petsc::check(MatDenseGetArrayWrite(all, &values));
   std::fill_n(values, std::size_t(n_local) * n, 0.0);
   for (PetscInt j = 0; j < n; ++j)
-    for (PetscInt i = 0; i < n_free; ++i)
-      values[rows[i] - first + std::size_t(j) * n_local] = from(i, j);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      values[rows[i] + std::size_t(j) * n_local] = from(static_cast<PetscInt>(i), j);
   petsc::check(MatDenseRestoreArrayWrite(all, &values));
-  petsc::check(ISRestoreIndices(free.indices, &rows));
   petsc::check(MatAssemblyBegin(all, MAT_FINAL_ASSEMBLY));
   petsc::check(MatAssemblyEnd(all, MAT_FINAL_ASSEMBLY));
   return all;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/index_sets.hpp"
 #include "linear/kernels/decoupled_rows.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 
@@ -38,15 +39,9 @@ std::vector<std::vector<PetscInt>> sets_with_entries(const std::vector<petsc::In
   std::vector<std::vector<PetscInt>> rows(sets.size());
   std::vector<int> is_there(sets.size(), 0);
   for (std::size_t k = 0; k < sets.size(); ++k) {
-    PetscInt n = 0;
-    const PetscInt* global = nullptr;
-    petsc::check(ISGetLocalSize(sets[k], &n));
-    petsc::check(ISGetIndices(sets[k], &global));
-    for (PetscInt i = 0; i < n; ++i) {
-      rows[k].push_back(global[i] - begin);
-      if (has_entries[rows[k].back()] != 0) is_there[k] = 1;
-    }
-    petsc::check(ISRestoreIndices(sets[k], &global));
+    rows[k] = petsc::own_rows(sets[k], A);
+    if (std::ranges::any_of(rows[k], [&](PetscInt i) { return has_entries[i] != 0; }))
+      is_there[k] = 1;
   }
   MPI_Allreduce(MPI_IN_PLACE, is_there.data(), static_cast<int>(is_there.size()), MPI_INT, MPI_MAX,
                 petsc::communicator(A));

@@ -101,7 +101,7 @@ void SparseProduct::give_back(Rows& rows)
 
 SparseProduct::SparseProduct(Mat A) : A_(as_aij(A)), comm_(petsc::communicator(A))
 {
-  petsc::check(MatGetLocalSize(A, &n_rows_, nullptr));
+  petsc::check(MatGetLocalSize(A, &n_rows_, &n_columns_));
   PetscBool is_distributed = PETSC_FALSE;
   petsc::check(PetscObjectTypeCompare((PetscObject)(Mat)A_, MATMPIAIJ, &is_distributed));
   if (is_distributed) {
@@ -112,12 +112,12 @@ SparseProduct::SparseProduct(Mat A) : A_(as_aij(A)), comm_(petsc::communicator(A
     own_ = borrow(own);
     other_ = borrow(other);
     const PetscInt* ranges = nullptr;
-    petsc::check(MatGetOwnershipRanges(A, &ranges));
-    plan_exchange({ghosts, ranges});
+    petsc::check(MatGetOwnershipRangesColumn(A, &ranges));
+    plan_exchange({.columns = ghosts, .first = ranges});
   } else {
     own_ = borrow(A_);
   }
-  panel_ = aligned_numbers((std::size_t(n_rows_) + n_ghosts_) * wide);
+  panel_ = aligned_numbers((std::size_t(n_columns_) + n_ghosts_) * wide);
   product_ = aligned_numbers(std::size_t(n_rows_) * wide);
 }
 
@@ -137,15 +137,15 @@ void SparseProduct::plan_exchange(const Ghosts& ghosts)
   for (int r = 0; r < n_ranks; ++r) {
     const PetscInt* end = ghosts.columns + n_ghosts_;
     receive_counts_[r] =
-        static_cast<int>(std::lower_bound(ghosts.columns, end, ghosts.first_rows[r + 1]) -
-                         std::lower_bound(ghosts.columns, end, ghosts.first_rows[r]));
+        static_cast<int>(std::lower_bound(ghosts.columns, end, ghosts.first[r + 1]) -
+                         std::lower_bound(ghosts.columns, end, ghosts.first[r]));
   }
   MPI_Alltoall(receive_counts_.data(), 1, MPI_INT, send_counts_.data(), 1, MPI_INT, comm_);
   const std::vector<int> send_at = offsets(send_counts_), receive_at = offsets(receive_counts_);
   send_rows_.resize(send_at.back());
   MPI_Alltoallv(ghosts.columns, receive_counts_.data(), receive_at.data(), MPIU_INT,
                 send_rows_.data(), send_counts_.data(), send_at.data(), MPIU_INT, comm_);
-  for (int& row : send_rows_) row -= ghosts.first_rows[rank];
+  for (int& row : send_rows_) row -= ghosts.first[rank];
   outbox_.resize(send_rows_.size() * wide);
 }
 
@@ -160,7 +160,7 @@ void SparseProduct::exchange(PetscInt width) const
   const std::vector<int> send_at = offsets(send_counts_), receive_at = offsets(receive_counts_);
   const RowType row(width);
   MPI_Alltoallv(outbox_.data(), send_counts_.data(), send_at.data(), row,
-                panel_.get() + std::size_t(n_rows_) * width, receive_counts_.data(),
+                panel_.get() + std::size_t(n_columns_) * width, receive_counts_.data(),
                 receive_at.data(), row, comm_);
 }
 
@@ -176,14 +176,14 @@ void SparseProduct::apply(Mat X, Mat Y) const
     const PetscInt width = x.n_cols() - first > narrow ? wide : narrow;
     const PetscInt n = std::min(width, x.n_cols() - first);
     const auto add = width == wide ? add_wide : add_narrow;
-    pack(x.values() + std::size_t(first) * x.leading_dimension(), x.leading_dimension(), n_rows_, n,
-         width, panel_.get());
+    pack(x.values() + std::size_t(first) * x.leading_dimension(), x.leading_dimension(), n_columns_,
+         n, width, panel_.get());
     exchange(width);
     std::fill_n(product_.get(), std::size_t(n_rows_) * width, 0.0);
     add({own_.starts, own_.columns, own_.values}, n_rows_, panel_.get(), product_.get());
     if (n_ghosts_ > 0) {
       add({other_.starts, other_.columns, other_.values}, n_rows_,
-          panel_.get() + std::size_t(n_rows_) * width, product_.get());
+          panel_.get() + std::size_t(n_columns_) * width, product_.get());
     }
     unpack(product_.get(), width, n_rows_, n, y + std::size_t(first) * ldy, ldy);
     first += n;

@@ -12,15 +12,15 @@ namespace chladni::linear {
 /// PETSc's MatMatMult of AIJ and dense matrices, and the result is not allocated anew.
 class SparseProduct {
  public:
-  /// @param A  [n x n], kept by reference if it is of type AIJ, otherwise converted; must not
-  ///           change during the lifetime of this object
+  /// @param A  kept by reference if it is of type AIJ, otherwise converted; must not change during
+  ///           the lifetime of this object
   /// @note   Collective on the communicator of A.
   explicit SparseProduct(Mat A);
   ~SparseProduct();
   SparseProduct(const SparseProduct&) = delete;
   SparseProduct& operator=(const SparseProduct&) = delete;
 
-  /// Y <- A X for dense X, Y whose rows are distributed as those of A.
+  /// Y <- A X for dense X, Y whose rows are distributed as the columns and the rows of A.
   /// @note   Collective.
   void apply(Mat X, Mat Y) const;
 
@@ -32,10 +32,10 @@ class SparseProduct {
     const PetscInt* columns = nullptr;
     const PetscScalar* values = nullptr;
   };
-  /// Global columns of other ranks that the rows of this rank need, and the first row of each rank.
+  /// Global columns of other ranks that the rows of this rank need, and the first one of each rank.
   struct Ghosts {
     const PetscInt* columns;
-    const PetscInt* first_rows;
+    const PetscInt* first;
   };
   static Rows borrow(Mat sequential);
   static void give_back(Rows& rows);
@@ -44,7 +44,7 @@ class SparseProduct {
 
   petsc::Matrix A_;  ///< AIJ
   MPI_Comm comm_;
-  PetscInt n_rows_ = 0;
+  PetscInt n_rows_ = 0, n_columns_ = 0;  ///< of this rank
   PetscInt n_ghosts_ = 0;
   Rows own_, other_;  ///< columns of this rank, and of others (by place among the ghosts)
   std::vector<int> send_rows_, send_counts_, receive_counts_;

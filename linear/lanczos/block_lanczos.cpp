@@ -75,12 +75,26 @@ bool BlockLanczos::is_too_early(PetscInt n_pairs) const
   return n < std::max(next_look_, is_first_sequence ? n_pairs + n_pairs / 2 : 0);
 }
 
-bool BlockLanczos::has_converged(PetscInt n_pairs)
+/// By the Ritz values up to lambda, which are never more than the eigenvalues there.
+void BlockLanczos::raise(Goal& goal)
+{
+  PetscInt n_below = 0;
+  while (n_below < iteration_.n_vectors() && iteration_.theta(n_below) > 0.0 &&
+         lambda(n_below) <= goal.lambda)
+    ++n_below;
+  goal.n_pairs = std::max(goal.n_pairs, std::min(n_below + 1, goal.most));
+  iteration_.reserve(capacity(goal.n_pairs, n_rows_, options_));
+}
+
+bool BlockLanczos::has_converged(Goal& goal)
 {
   const PetscInt n = iteration_.n_vectors();
-  report_progress(std::min(0.99, double(n) / (3.2 * n_pairs)));  // it takes 2.4 to 3.5 for each
-  if (is_too_early(n_pairs)) return false;
+  // It takes 2.4 to 3.5 vectors for each pair.
+  report_progress(std::min(0.99, double(n) / (3.2 * goal.n_pairs)));
+  if (is_too_early(goal.n_pairs)) return false;
   iteration_.order_ritz_values(std::greater<>());
+  raise(goal);
+  const PetscInt n_pairs = goal.n_pairs;
   const RitzValues pairs = iteration_.pairs();
   const PetscInt n_first = n_converged_first(pairs, options_.tolerance);
   n_converged_ = std::min(n_first, n_pairs);
@@ -104,6 +118,7 @@ void BlockLanczos::restart(PetscInt n_pairs)
 void BlockLanczos::begin_anew(PetscInt n_kept, PetscInt n_pairs)
 {
   constexpr PetscInt n_steps = 8;  // that a sequence mostly takes
+  unresolved_from_ = all_of_them;  // what the new sequence does not find is noted at its end
   const bool is_second = !iteration_.sequence().known.empty();
   const PetscInt widest = std::max(options_.block_size, n_pairs / 4);
   const PetscInt width =
@@ -152,20 +167,33 @@ void BlockLanczos::require_resolved(double lambda) const
 
 void BlockLanczos::converge(PetscInt n_pairs)
 {
-  iteration_.reserve(capacity(n_pairs, n_rows_, options_));
+  converge(Goal{.n_pairs = n_pairs});
+}
+
+void BlockLanczos::converge_beyond(double lambda, PetscInt most)
+{
+  constexpr PetscInt first_guess = 4;
+  converge(Goal{.n_pairs = std::min(std::max(n_converged_, first_guess), most),
+                .lambda = lambda,
+                .most = most});
+}
+
+void BlockLanczos::converge(Goal goal)
+{
+  iteration_.reserve(capacity(goal.n_pairs, n_rows_, options_));
   if (n_solves_ == 0) iteration_.start(op_);
   next_look_ = 0;
-  if (iteration_.n_vectors() > 0 && has_converged(n_pairs)) return;
+  if (iteration_.n_vectors() > 0 && has_converged(goal)) return;
   for (PetscInt i = 0; i < options_.max_steps; ++i) {
     if (iteration_.is_exhausted()) return note_unresolved(iteration_.lost_theta());
-    if (iteration_.is_full()) restart(n_pairs);
+    if (iteration_.is_full()) restart(goal.n_pairs);
     iteration_.step(op_);
-    if (has_converged(n_pairs)) return;
+    if (has_converged(goal)) return;
   }
   throw Error(
       fmt::format("block_lanczos: {} pairs did not converge to {:.1e} in {} block solves; "
                   "ask for fewer or raise the tolerance",
-                  n_pairs, options_.tolerance, options_.max_steps));
+                  goal.n_pairs, options_.tolerance, options_.max_steps));
 }
 
 EigenPairs block_lanczos(Mat factor, Mat M, const BlockLanczosOptions& options)

@@ -58,6 +58,12 @@ class BlockLanczos {
   /// @note   Collective.
   /// @throws chladni::Error when they do not within `max_steps`.
   void converge(PetscInt n_pairs);
+  /// Iterates until all pairs up to lambda have converged, and one more, which shows that they are
+  /// all; or the lowest `most`. How many there are need not be known.
+  /// @param lambda  rad^2/s^2
+  /// @note   Collective.
+  /// @throws chladni::Error as `converge`.
+  void converge_beyond(double lambda, PetscInt most);
 
   /// Checks that all pairs below lambda have converged.
   /// @param lambda  rad^2/s^2
@@ -82,7 +88,16 @@ class BlockLanczos {
   }
 
  private:
-  bool has_converged(PetscInt n_pairs);
+  /// How far to converge: the lowest n_pairs, and of the first `most` those up to lambda and one
+  /// more.
+  struct Goal {
+    PetscInt n_pairs;
+    double lambda = 0.0;
+    PetscInt most = 0;
+  };
+  void converge(Goal goal);
+  void raise(Goal& goal);
+  bool has_converged(Goal& goal);
   bool has_ended(const RitzValues& pairs, PetscInt n_pairs);
   void note_unresolved(double theta);
   bool is_too_early(PetscInt n_pairs) const;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/index_sets.hpp"
+
 namespace chladni::linear {
 
 namespace {
@@ -29,32 +31,34 @@ double expected_below(double lambda, const BlockLanczos& found)
 
 }  // namespace
 
-PartedLanczos::PartedLanczos(Mat factor, Mat M, const BlockLanczosOptions& options) : M_(M)
+PartedLanczos::PartedLanczos(BlockSolve solve, PetscInt most, Mat M,
+                             const BlockLanczosOptions& options)
+    : M_(M)
 {
   parts_.resize(1);
   parts_.front().n_rows = n_rows_of(M);
-  parts_.front().lanczos = std::make_unique<BlockLanczos>(factor, M, options);
+  parts_.front().most = std::min(most, parts_.front().n_rows);
+  parts_.front().lanczos = std::make_unique<BlockLanczos>(std::move(solve), M, options);
 }
+
+PartedLanczos::PartedLanczos(Mat factor, Mat M, const BlockLanczosOptions& options)
+    : PartedLanczos([factor](Mat B, Mat X) { petsc::check(MatMatSolve(factor, B, X)); },
+                    n_rows_of(M), M, options)
+{}
 
 PartedLanczos::PartedLanczos(std::vector<DecoupledPart> parts, Mat M,
                              const BlockLanczosOptions& options)
     : M_(M)
 {
-  PetscInt first = 0;
-  petsc::check(MatGetOwnershipRange(M, &first, nullptr));
   for (DecoupledPart& given : parts) {
     Part part;
     PetscReal largest = 0.0;
     petsc::check(MatCreateSubMatrix(M, given.rows, given.rows, MAT_INITIAL_MATRIX, part.M.put()));
     petsc::check(MatNorm(part.M, NORM_INFINITY, &largest));
-    if (largest == 0.0) continue;
-    PetscInt n = 0;
-    const PetscInt* rows = nullptr;
-    petsc::check(ISGetLocalSize(given.rows, &n));
-    petsc::check(ISGetIndices(given.rows, &rows));
-    for (PetscInt k = 0; k < n; ++k) part.rows.push_back(rows[k] - first);
-    petsc::check(ISRestoreIndices(given.rows, &rows));
+    if (largest == 0.0 || given.most == 0) continue;
+    part.rows = petsc::own_rows(given.rows, M);
     part.n_rows = n_rows_of(part.M);
+    part.most = std::min(given.most, part.n_rows);
     part.lanczos = std::make_unique<BlockLanczos>(std::move(given.solve), part.M, options);
     parts_.push_back(std::move(part));
   }
@@ -62,7 +66,7 @@ PartedLanczos::PartedLanczos(std::vector<DecoupledPart> parts, Mat M,
 
 void PartedLanczos::converge(Part& part, PetscInt n_pairs)
 {
-  part.n_asked = std::min(n_pairs, part.n_rows);
+  part.n_asked = std::min(n_pairs, part.most);
   part.lanczos->converge(part.n_asked);
 }
 
@@ -82,6 +86,25 @@ void PartedLanczos::converge(PetscInt n_pairs)
   }
   while (n_complete() < n_pairs) converge_further(n_pairs);
   merge(n_pairs);
+}
+
+void PartedLanczos::converge_beyond(double lambda)
+{
+  for (Part& part : parts_) {
+    if (part.n_asked > 0 && (part.has_all() || part.last() > lambda)) continue;
+    part.lanczos->converge_beyond(lambda, part.most);
+    const PetscInt n = part.lanczos->n_pairs();
+    const bool goes_on = n > 0 && part.last() > lambda;
+    part.n_asked = goes_on ? n : n + 1;
+  }
+  merge(n_complete());
+}
+
+bool PartedLanczos::has_all() const
+{
+  PetscInt n = 0;
+  for (const Part& part : parts_) n += part.lanczos->n_pairs();
+  return n == n_pairs() && std::ranges::all_of(parts_, &Part::has_all);
 }
 
 /// Pairs up to the last of the part that has come least far: none is missing among them.
@@ -179,7 +202,7 @@ double PartedLanczos::numbers_solved() const
 
 petsc::Matrix PartedLanczos::vectors(PetscInt first, PetscInt last) const
 {
-  if (parts_.size() == 1 && parts_.front().rows.empty())
+  if (parts_.size() == 1 && parts_.front().M == nullptr)
     return parts_.front().lanczos->vectors(first, last);
   petsc::Matrix X = uninitialized_dense(M_, last - first);
   petsc::check(MatZeroEntries(X));

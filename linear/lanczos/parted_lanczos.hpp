@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -11,13 +12,15 @@ namespace chladni::linear {
 /// Rows that K and M couple to no others, with a solver for them.
 struct DecoupledPart {
   petsc::IndexSet rows;  ///< global, on the rank that owns them, ascending
-  BlockSolve solve;      ///< with K between these rows
+  BlockSolve solve;      ///< with K between these rows, where it is not singular
+  /// number of pairs at most; fewer than rows if K is singular or some of them are held
+  PetscInt most = std::numeric_limits<PetscInt>::max();
 };
 
 /// The lowest pairs of K x = lambda M x if K and M consist of uncoupled parts, with a BlockLanczos
 /// for each part. Vectors are as long as their part, and each part computes as many pairs as it has
-/// in the range. If parts share an eigenvalue, each has its own vectors. A part without mass has no
-/// pairs.
+/// in the range. If parts share an eigenvalue, each has its own vectors. A part without mass, or of
+/// which most = 0, has no pairs.
 class PartedLanczos {
  public:
   /// @param parts    together all rows of M, each row in one part
@@ -25,10 +28,14 @@ class PartedLanczos {
   /// @note   Collective.
   PartedLanczos(std::vector<DecoupledPart> parts, Mat M, const BlockLanczosOptions& options);
   /// Treats all rows as one part.
+  /// @param most  number of pairs at most, as in DecoupledPart
+  PartedLanczos(BlockSolve solve, PetscInt most, Mat M, const BlockLanczosOptions& options);
   PartedLanczos(Mat factor, Mat M, const BlockLanczosOptions& options);
 
-  /// The functions below are those of BlockLanczos.
+  /// The functions below are those of BlockLanczos; `converge_beyond` finds one pair beyond lambda
+  /// in each part, as far as it has some.
   void converge(PetscInt n_pairs);
+  void converge_beyond(double lambda);
   void require_resolved(double lambda) const;
   double unresolved_from() const;
   PetscInt n_pairs() const { return static_cast<PetscInt>(pairs_.size()); }
@@ -36,18 +43,22 @@ class PartedLanczos {
   double lambda(PetscInt i) const { return pairs_[i].lambda; }
   petsc::Matrix vectors(PetscInt first, PetscInt last) const;
 
+  /// True if there are no others than the pairs that have been found.
+  bool has_all() const;
+
   PetscInt n_parts() const { return static_cast<PetscInt>(parts_.size()); }
   /// The sum over all parts of columns solved times rows.
   double numbers_solved() const;
 
  private:
   struct Part {
-    std::vector<PetscInt> rows;  ///< local, in M; unused where it is the only one
+    std::vector<PetscInt> rows;  ///< local, in M; unused where this is the only part
     PetscInt n_rows = 0;         ///< on all ranks
-    petsc::Matrix M;
+    PetscInt most = 0;           ///< pairs
+    petsc::Matrix M;             ///< null where this is the only part
     std::unique_ptr<BlockLanczos> lanczos;
     PetscInt n_asked = 0;
-    bool has_all() const { return lanczos->n_pairs() < n_asked || n_asked >= n_rows; }
+    bool has_all() const { return lanczos->n_pairs() < n_asked || n_asked >= most; }
     double last() const { return lanczos->lambda(lanczos->n_pairs() - 1); }
   };
   struct Pair {

@@ -43,12 +43,12 @@ petsc::Matrix matrix_of(SplitRows split, PetscInt n_rows, MPI_Comm comm)
 std::uint64_t components_of(const Eigen::Ref<const Eigen::MatrixXd>& A_e, int n)
 {
   std::uint64_t found = 0;
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
-      const Eigen::Index n_nodes = A_e.rows() / n;
-      const auto entries = A_e(Eigen::seqN(i, n_nodes, n), Eigen::seqN(j, n_nodes, n));
-      if ((entries.array() != 0.0).any()) found |= std::uint64_t{1} << (n * j + i);
-    }
+  for (Eigen::Index column = 0; column < A_e.cols(); ++column) {
+    const double* entries = A_e.data() + column * A_e.outerStride();
+    std::uint64_t of_rows = 0;  // bit i
+    for (Eigen::Index first = 0; first < A_e.rows(); first += n)
+      for (int i = 0; i < n; ++i) of_rows |= std::uint64_t{entries[first + i] != 0.0} << i;
+    found |= of_rows << (n * (column % n));
   }
   return found;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "common/checked_count.hpp"
@@ -10,23 +11,39 @@ namespace chladni::plate {
 
 namespace {
 
-/// Calls visit(j, value) for the entries that row i of a block holds.
-template <typename Visit>
-void for_held(std::span<const double> block, int i, const HeldBlocks& blocks, const Visit& visit)
-{
-  const int n = blocks.pattern.n;
-  if (std::ssize(block) == std::ptrdiff_t(n) * n) {
-    for (int j = 0; j < n; ++j) visit(j, block[i * n + j]);
-    return;
+/// The columns that each row of a block holds if it does not hold all.
+class HeldColumns {
+ public:
+  explicit HeldColumns(const HeldBlocks& blocks) : n_(blocks.pattern.n), begin_(std::size_t(n_) + 1)
+  {
+    for (const int component : blocks.held) {
+      column_.push_back(component % n_);
+      ++begin_[std::size_t(component / n_) + 1];
+    }
+    std::inclusive_scan(begin_.begin(), begin_.end(), begin_.begin());
   }
-  for (std::size_t s = 0; s < block.size(); ++s)
-    if (blocks.held[s] / n == i) visit(blocks.held[s] % n, block[s]);
-}
+
+  /// Calls visit(j, value) for the entries that row i of a block holds.
+  template <typename Visit>
+  void for_row(std::span<const double> block, int i, const Visit& visit) const
+  {
+    if (std::ssize(block) == std::ptrdiff_t(n_) * n_) {
+      for (int j = 0; j < n_; ++j) visit(j, block[i * n_ + j]);
+      return;
+    }
+    for (std::size_t s = begin_[i]; s < begin_[i + 1]; ++s) visit(column_[s], block[s]);
+  }
+
+ private:
+  int n_;
+  std::vector<int> column_;         ///< of each value of a block, by rows
+  std::vector<std::size_t> begin_;  ///< [n + 1] first value of each row
+};
 
 class RowSplitter {
  public:
   RowSplitter(const HeldBlocks& blocks, const Sieve& sieve, std::vector<double> values)
-      : blocks_(blocks), sieve_(sieve)
+      : blocks_(blocks), held_(blocks), sieve_(sieve)
   {
     rows_.column = std::make_unique_for_overwrite<PetscInt[]>(values.size());
     rows_.value = std::move(values);
@@ -82,14 +99,14 @@ class RowSplitter {
         return sieve_.counts(value, row_scale, column_scales[j]);
       };
       if (own_node >= 0 && own_node < pattern.n_rows()) {
-        for_held(block, i, blocks_, [&](int j, double value) {  // the next overwrites what is none
+        held_.for_row(block, i, [&](int j, double value) {  // the next overwrites what is none
           rows_.column[count_] = pattern.n * own_node + j;
           rows_.value[static_cast<std::size_t>(count_)] = value;
           count_ += static_cast<std::ptrdiff_t>((own_node == node && i == j) || counts(j, value));
         });
         continue;
       }
-      for_held(block, i, blocks_, [&](int j, double value) {
+      held_.for_row(block, i, [&](int j, double value) {
         if (!counts(j, value)) return;
         rows_.other_column.push_back(pattern.n * column_node + j);
         rows_.other_value.push_back(value);
@@ -98,6 +115,7 @@ class RowSplitter {
   }
 
   const HeldBlocks& blocks_;
+  HeldColumns held_;
   const Sieve& sieve_;
   SplitRows rows_;
   std::ptrdiff_t count_ = 0;
@@ -110,6 +128,7 @@ std::vector<double> diagonal_scales(const HeldBlocks& blocks, const std::vector<
 {
   const BlockPattern& pattern = blocks.pattern;
   const int n = pattern.n;
+  const HeldColumns held(blocks);
   std::vector<double> scales;
   scales.reserve(std::size_t(pattern.n_rows()) * n);
   for (PetscInt node = 0; node < pattern.n_rows(); ++node) {
@@ -125,7 +144,7 @@ std::vector<double> diagonal_scales(const HeldBlocks& blocks, const std::vector<
         values.data() + blocks.offset[place],
         static_cast<std::size_t>(blocks.offset[place + 1] - blocks.offset[place]));
     for (int i = 0; i < n; ++i) {
-      for_held(block, i, blocks, [&](int j, double value) {
+      held.for_row(block, i, [&](int j, double value) {
         if (i == j) scales.push_back(std::sqrt(std::abs(value)));
       });
     }

@@ -65,7 +65,7 @@ ALLOWED = {
 # The scene knows the options of all libraries: plain structs, which include nothing of theirs.
 OPTIONS = re.compile(r"[\w/]+/(\w+_options|friction|cycle_harmonics)\.hpp$")
 # Right of the modal body nobody has heard of the finite elements or of their libraries; METIS orders the matrices of linear/.
-HEAVY = ("common/petsc", "common/all_ranks", "petsc", "slepc", "mpi.h", "gmsh.h", "metis.h", "dmumps", "zmumps")
+HEAVY = ("common/petsc", "common/all_ranks", "common/index_sets", "petsc", "slepc", "mpi.h", "gmsh.h", "metis.h", "dmumps", "zmumps")
 CUTS = {
     "files": HEAVY,
     "fmu": (*HEAVY, "fmt", "hdf5", "files"),  # runs in programs of others, where none of it is
@@ -81,7 +81,7 @@ CUTS = {
     "report": tuple(name for name in HEAVY),
     "cases/squeal": HEAVY,
     # The sound field needs complex equations and a mesh of the air, not the body's elements.
-    "sound": ("common/petsc", "common/all_ranks", "petsc", "slepc", "dmumps"),
+    "sound": ("common/petsc", "common/all_ranks", "common/index_sets", "petsc", "slepc", "dmumps"),
 }
 # One source of the folder knows this header.
 ONLY_IN = {"sound": ("gmsh.h", "mesh_air.cpp")}

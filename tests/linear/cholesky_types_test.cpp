@@ -13,6 +13,7 @@
 #include "linear/cholesky/inverse_form.hpp"
 #include "linear/cholesky/supernodal/supernodal_factor.hpp"
 #include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/random_block.hpp"
 #include "linear/kernels/sparse_product.hpp"
 
 namespace chladni::linear {
@@ -471,6 +472,27 @@ TEST(SparseProduct, TakesTheVariantsOfAij)
     SparseProduct(B).apply(X, Z);
     EXPECT_EQ(difference(Y, Z), 0.0) << type;
   }
+}
+
+TEST(SparseProduct, TakesAMatrixOfOtherColumnsThanRows)
+{
+  const petsc::Matrix A = membranes(20);
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(A, &first, &last));
+  petsc::IndexSet rows, columns;
+  petsc::check(ISCreateStride(PETSC_COMM_WORLD, (last - first) / 2, first, 2, rows.put()));
+  petsc::check(ISCreateStride(PETSC_COMM_WORLD, (last - first) / 3, first + 1, 3, columns.put()));
+  petsc::Matrix B, square, by_petsc;
+  petsc::check(MatCreateSubMatrix(A, rows, columns, MAT_INITIAL_MATRIX, B.put()));
+  petsc::check(MatCreateSubMatrix(A, columns, columns, MAT_INITIAL_MATRIX, square.put()));
+  const petsc::Matrix X = uninitialized_dense(square, 21), Y = uninitialized_dense(B, 21);
+  fill_with_random_numbers(X, 0);
+  SparseProduct(B).apply(X, Y);
+  petsc::check(MatMatMult(B, X, MAT_INITIAL_MATRIX, petsc::automatic, by_petsc.put()));
+  PetscReal size = 0.0;
+  petsc::check(MatNorm(by_petsc, NORM_FROBENIUS, &size));
+  EXPECT_GT(size, 1.0);
+  EXPECT_LT(difference(by_petsc, Y), 1e-14 * size);
 }
 
 INSTANTIATE_TEST_SUITE_P(Widths, SparseProductOf, ::testing::Values(1, 8, 9, 16, 17, 40));

@@ -14,7 +14,6 @@
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/form_parts.hpp"
 #include "linear/kernels/gather.hpp"
-#include "linear/kernels/part_traces.hpp"
 #include "linear/kernels/parted_form.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "matrices.hpp"
@@ -286,23 +285,6 @@ TEST(Factorization, LeavesPartsAtRestThatNothingLoads)
   petsc::check(MatDuplicate(B, MAT_COPY_VALUES, forces.put()));
   const InverseForm half = inverse_form(factorization.factor(), std::move(forces));
   EXPECT_LT((inner_product(half.left, half.right()) - form).norm(), 1e-13 * form.norm());
-}
-
-TEST(PartTraces, AreClearedWhereTheyAreRoundOff)
-{
-  // A mode of the even rows with a trace in the odd ones, one with more than round-off there, and
-  // one of the odd rows alone.
-  const std::array<double, 3> even{1.0, 1.0, 0.0}, odd{1e-12, 1e-8, 1.0};
-  const petsc::Matrix K = chains(301, 2), M = diagonal(301, 0, 0);
-  const petsc::Matrix X =
-      dense(K, 3, [&](PetscInt i, PetscInt j) { return i % 2 == 0 ? even[j] : odd[j]; });
-  clear_part_traces(K, M, X);
-  const LocalRows x(X);
-  PetscInt first = 0;
-  petsc::check(MatGetOwnershipRange(K, &first, nullptr));
-  const std::array<double, 3> left{0.0, 1e-8, 1.0};
-  for (PetscInt i = 0; i < x.n_rows(); ++i)
-    for (PetscInt j = 0; j < 3; ++j) EXPECT_EQ(x(i, j), (first + i) % 2 == 0 ? even[j] : left[j]);
 }
 
 TEST(PartSolver, RefusesRowsThatOthersAreCoupledTo)

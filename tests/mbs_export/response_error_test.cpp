@@ -1,5 +1,6 @@
 #include "mbs_export/response_error.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/rank_update.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,14 +48,20 @@ MatrixXcd remainder_of(const ReferenceResponse& complete, const MatrixXd& Q, dou
          Q_B.transpose() * D_q.inverse() * Q_B;
 }
 
+MatrixXcd remainder_at(const TrialBasis& basis, Index g)
+{
+  const MatrixXcd& half = basis.remainder[std::size_t(g)];
+  return linear::symmetric_product(half, MatrixXd::Identity(half.rows(), half.cols()));
+}
+
 /// Largest difference between the remainder that was updated and the one by definition.
 double update_error(const ReferenceResponse& complete, const TrialBasis& basis, const MatrixXd& Q)
 {
   double largest = 0.0;
   for (Index g = 0; g < complete.Omega.size(); ++g) {
     const MatrixXcd expected = remainder_of(complete, Q, complete.Omega[g]);
-    largest = std::max(largest, (basis.remainder[std::size_t(g)] - expected).norm() /
-                                    complete.H[std::size_t(g)].norm());
+    largest = std::max(
+        largest, (remainder_at(basis, g) - expected).norm() / complete.H[std::size_t(g)].norm());
   }
   return largest;
 }
@@ -111,7 +118,7 @@ TEST(TrialBasis, MissesWhatItDoesNotHold)
   for (Index g = 0; g < complete.Omega.size(); ++g)
     for (Index j = 0; j < 2; ++j) {
       const VectorXcd missing = complete.B.transpose() * missing_response(complete, basis, j, g);
-      EXPECT_LT((missing - basis.remainder[std::size_t(g)].col(j)).norm(),
+      EXPECT_LT((missing - remainder_at(basis, g).col(j)).norm(),
                 1e-11 * complete.H[std::size_t(g)].norm());
     }
 }

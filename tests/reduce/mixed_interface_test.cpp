@@ -2,13 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
+#include "common/index_sets.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "reduce/error_estimates.hpp"
 #include "reduce/partition.hpp"
 #include "tests/linear/chain.hpp"
+#include "tests/linear/matrices.hpp"
 
 namespace chladni::reduce {
 namespace {
@@ -172,6 +176,91 @@ std::vector<double> eigenvalues_with_end_held(const ReducedModel& model)
 {
   const Eigen::Index n_r = model.K.rows() - 1;
   return eigenvalues(model.K.bottomRightCorner(n_r, n_r), model.M.bottomRightCorner(n_r, n_r));
+}
+
+/// Two free chains like those above that lie into each other, and a mass that nothing holds.
+struct TwoChains {
+  static constexpr PetscInt n_rows = 2 * n + 1;
+  petsc::Matrix K = linear::testing::matrix(n_rows, 3, [](PetscInt i) {
+    const PetscInt place = i / 2;
+    linear::testing::Row row;
+    if (place == n) return linear::testing::Row{{i, 0.0}};
+    row.emplace_back(i, (place > 0) + (place + 1 < n));
+    if (place > 0) row.emplace_back(i - 2, -1.0);
+    if (place + 1 < n) row.emplace_back(i + 2, -1.0);
+    return row;
+  });
+  petsc::Matrix M = linear::testing::diagonal(n_rows, [](PetscInt) { return 1.0; });
+};
+
+struct ReducedTwoChains {
+  TwoChains chains;
+  DofPartition dofs = partition(chains.K, master_set(chains.K, {0, 1, 46, 47, 2 * n}));
+  Blocks K = split(chains.K, dofs), M = split(chains.M, dofs);
+  linear::Factorization K_ss = linear::factorize(K.ss);
+  petsc::Matrix Psi = constraint_modes(K_ss, K);
+  WholeSystem body{
+      .K = chains.K, .M = chains.M, .dofs = dofs, .K_blocks = K, .M_blocks = M, .K_ss = K_ss};
+};
+
+/// Some of the first masses of both chains held, rows 0 and 1, and the mass without a spring, 4.
+using Held = std::vector<int>;
+
+/// The n lowest eigenvalues but zero of each chain, ascending.
+std::vector<double> elastic(const Held& held, int n_of_each)
+{
+  std::vector<double> lambda;
+  for (const int first_mass : {0, 1}) {
+    const bool is_held = std::ranges::find(held, first_mass) != held.end();
+    for (int k = 1; k <= n_of_each; ++k)
+      lambda.push_back(is_held ? exact_with_end_held(k) : exact(k));
+  }
+  std::ranges::sort(lambda);
+  return lambda;
+}
+
+TEST(MixedInterfaceModes, OfPartsWithTheSameFrequenciesMoveOnePartEach)
+{
+  const ReducedTwoChains two;
+  const std::vector<PetscInt> rows = petsc::own_indices(two.dofs.slaves);
+  for (const Held& held : {Held{}, {0, 4}, {0, 1, 4}}) {
+    const MixedInterfaceModes modes =
+        mixed_interface_modes(two.body, two.Psi, {.modes = 2 * n_modes}, held);
+    const std::vector<double> lambda = elastic(held, n_modes);
+    ASSERT_EQ(modes.n_rigid, 3 - std::ssize(held));
+    ASSERT_EQ(modes.n_modes() - modes.n_rigid, std::ssize(lambda));
+    MatrixXd sums = MatrixXd::Zero(modes.n_modes(), 2);  // of each chain
+    const linear::LocalRows X_s(modes.X_s);
+    for (PetscInt k = 0; k < modes.n_modes(); ++k)
+      for (PetscInt i = 0; i < X_s.n_rows(); ++i)
+        sums(k, rows[std::size_t(i)] % 2) += std::abs(X_s(i, k));
+    linear::sum_over_ranks(linear::values_of(sums), PETSC_COMM_WORLD);
+    for (PetscInt k = modes.n_rigid; k < modes.n_modes(); ++k) {
+      EXPECT_NEAR(std::pow(modes.omega[k], 2) / lambda[k - modes.n_rigid], 1.0, 1e-9) << k;
+      EXPECT_EQ(sums.row(k).minCoeff(), 0.0) << "mode " << k;
+      EXPECT_GT(sums.row(k).maxCoeff(), 1.0) << "mode " << k;
+    }
+  }
+}
+
+TEST(MixedInterfaceModes, OfPartsAreNoMoreThanTheElasticOnes)
+{
+  const ReducedTwoChains two;
+  for (const Held& held : {Held{}, {0}, {1, 4}}) {
+    constexpr double above_all = 5.0;
+    const std::vector<double> lambda = elastic(held, n - 1);  // held or not
+    const auto n_all = static_cast<PetscInt>(lambda.size());
+    for (const ReduceOptions& wanted :
+         {ReduceOptions{.modes = n_all},
+          ReduceOptions{.cutoff_Hz = std::sqrt(above_all) / (2.0 * std::numbers::pi)}}) {
+      const MixedInterfaceModes modes = mixed_interface_modes(two.body, two.Psi, wanted, held);
+      ASSERT_EQ(modes.n_rigid, 3 - std::ssize(held));
+      ASSERT_EQ(modes.n_modes() - modes.n_rigid, n_all);
+      for (PetscInt k = 0; k < n_all; ++k)
+        EXPECT_NEAR(std::pow(modes.omega[modes.n_rigid + k], 2) / lambda[k], 1.0, 1e-9) << k;
+    }
+    EXPECT_THROW(mixed_interface_modes(two.body, two.Psi, {.modes = n_all + 1}, held), Error);
+  }
 }
 
 TEST(MixedInterface, KeepsTheModesUnderItsSupport)

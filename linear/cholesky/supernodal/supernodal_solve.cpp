@@ -3,6 +3,7 @@
 #include <numeric>
 #include <span>
 
+#include "common/index_sets.hpp"
 #include "linear/cholesky/supernodal/supernodal_factor.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/gather.hpp"
@@ -79,12 +80,7 @@ SlotExchange SupernodalFactor::exchange_of(const std::vector<int>& rows, const R
 
 SupernodalPart SupernodalFactor::part(IS rows) const
 {
-  PetscInt n_local = 0;
-  const PetscInt* indices = nullptr;
-  petsc::check(ISGetLocalSize(rows, &n_local));
-  petsc::check(ISGetIndices(rows, &indices));
-  const std::vector<int> own(indices, indices + n_local);
-  petsc::check(ISRestoreIndices(rows, &indices));
+  const std::vector<int> own = petsc::own_indices(rows);
   const std::vector<int> all = gather_on_all(own, MPI_INT, comm_);
   std::vector<char> roots(tree_.n_supernodes(), 0);
   for (const int row : all) roots[tree_of_[supernode_of_row(row)]] = 1;
@@ -96,9 +92,8 @@ SupernodalPart SupernodalFactor::part(IS rows) const
         "SupernodalFactor::part: the {} rows of a part are coupled to {} others; take all of them",
         all.size(), n_coupled - std::ssize(all)));
   }
-  RowRange here{.comm = comm_, .first = 0, .last = 0};
-  MPI_Scan(&n_local, &here.last, 1, MPIU_INT, MPI_SUM, comm_);
-  here.first = here.last - n_local;
+  RowRange here{.comm = comm_, .first = petsc::indices_before(rows), .last = 0};
+  here.last = here.first + static_cast<int>(own.size());
   return {.supernodes = of_trees(roots), .exchange = exchange_of(all, here)};
 }
 
