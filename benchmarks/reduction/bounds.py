@@ -2,7 +2,9 @@
 
 A bound counts what the method has to do at least: operations at the rate of dgemm, passes over what stands in memory at
 the rate of reading it, files at that of writing them. n are the slaves, m the masters, k the fixed-interface modes, p the
-pairs with an estimate, l the entries of the factor, V the vectors of block Lanczos, which come b = 8 at a time.
+pairs with an estimate, l the entries of the factor, V the vectors of block Lanczos, which come b = 8 at a time. Those of a
+flat disc are of bending or of motion in the plane: half as long, of half of the factor and of M, and orthogonal to those
+of their part alone.
 """
 import os
 import pathlib
@@ -12,6 +14,7 @@ import time
 import run
 
 BLOCK = 8
+PARTS = 2
 RATES = """
 import numpy as np, time
 a = np.random.rand(2000, 2000)
@@ -33,13 +36,13 @@ MEANING = {
     "assembly": "K and M written once to memory never touched, 8 bytes an entry; operations of the elements are not counted",
     "partition": "K and M read and their blocks written once, 8 bytes an entry",
     "factorization": "operations of the factor; the order of elimination, searched here too, has no bound",
-    "fixed-interface modes": "for each block two passes over the factor, one over M_ss and its own columns read and written by "
-                             "both; 2 n V^2 operations, or reading all earlier vectors twice for each block, to make them "
-                             "orthogonal once",
-    "constraint modes": "2 l m operations of the backward solution; forward, columns with few entries need less",
-    "projection": "n m^2 operations of Psi^T M Psi, half of it known by symmetry, and 2 n m k of Phi^T M Psi",
-    "error estimates": "2 n (m + k) p operations of the shapes, 4 l p of the solutions",
-    "residuals": "K, M and Phi read once",
+    "fixed-interface modes": "for each block two passes over its part of the factor, one over that of M_ss and its own columns "
+                             "read and written by both; n V^2 / 2 operations, or reading all earlier vectors of the part twice "
+                             "for each block, to make them orthogonal once",
+    "constraint modes": "l m operations of the backward solution; forward, columns with few entries need less",
+    "projection": "n m^2 / 4 operations of Psi^T M Psi, half of it known by symmetry, and n m k / 2 of Phi^T M Psi",
+    "error estimates": "n (m + k) p / 2 operations of the shapes, 2 l p of the solutions",
+    "residuals": "K, M and half of Phi, which is zero in the other, read once",
     "condition": "two passes over the factor; how many solutions the estimate takes is not counted",
     "pictures": "none: a choice of rows, no known least work",
     "write": "bytes of the file",
@@ -79,14 +82,15 @@ def phases(entry, rate):
     operations = lambda count: 1e-9 * count / rate["dgemm_GFLOP_per_s"]
     reading = lambda count: 8e-9 * count / rate["memory_GB_per_s"]
     writing = lambda count: 8e-9 * count / rate["memory_write_GB_per_s"]
-    blocks, vectors = lanczos(entry)
-    orthogonal = max(operations(2 * n * vectors**2), reading(n * vectors**2 / BLOCK))
+    blocks, length = lanczos(entry)[0], n / PARTS
     return {"assembly": 8e-9 * entries / rate["memory_fresh_GB_per_s"], "partition": reading(entries) + writing(entries),
             "factorization": operations(entry["factor_operations"]),
-            "fixed-interface modes": blocks * (reading(2 * l + s["M_entries"] + 2 * n * BLOCK) + writing(2 * n * BLOCK)) +
-                                     orthogonal,
-            "constraint modes": operations(2 * l * m), "projection": operations(n * m**2 + 2 * n * m * k),
-            "error estimates": operations(2 * n * (m + k) * p + 4 * l * p), "residuals": reading(entries + n * k),
+            "fixed-interface modes": blocks * (reading((2 * l + s["M_entries"]) / PARTS + 2 * length * BLOCK) +
+                                               writing(2 * length * BLOCK)) + orthogonal(entry, rate),
+            "constraint modes": operations(2 * l * m / PARTS),
+            "projection": operations((n * m**2 + 2 * n * m * k) / PARTS**2),
+            "error estimates": operations(2 * n * (m + k) * p / PARTS**2 + 4 * l * p / PARTS),
+            "residuals": reading(entries + n * k / PARTS),
             "condition": reading(2 * l), "write": 1e-9 * s["file_bytes"] / rate["file_GB_per_s"]}
 
 
@@ -96,26 +100,32 @@ def lanczos(entry):
     return blocks, BLOCK * blocks
 
 
+def orthogonal(entry, rate):
+    """Least seconds to make the vectors of the parts orthogonal: where each part has as many of them."""
+    products = entry["sizes"]["slaves"] * (lanczos(entry)[1] / PARTS)**2
+    return max(2e-9 * products / rate["dgemm_GFLOP_per_s"], 8e-9 * products / BLOCK / rate["memory_GB_per_s"])
+
+
 def events(entry, rate):
     """Least seconds of what -log_view tells apart below the phases."""
     n, (blocks, vectors) = entry["sizes"]["slaves"], lanczos(entry)
-    one_solve = 16e-9 * entry["factor_entries"] / rate["memory_GB_per_s"]
+    one_solve = 16e-9 * entry["factor_entries"] / PARTS / rate["memory_GB_per_s"]
+    length = n / PARTS
     return {"CMSFactor": 1e-9 * entry["factor_operations"] / rate["dgemm_GFLOP_per_s"],
             "CMSSolve": one_solve * entry["events"]["CMSSolve"]["count"],
-            "CMSSpMM": 8e-9 * (entry["sizes"]["M_entries"] * entry["events"]["CMSSpMM"]["count"] + n * vectors) /
-                       rate["memory_GB_per_s"] + 8e-9 * n * vectors / rate["memory_write_GB_per_s"],
-            "CMSOrthogonal": max(2e-9 * n * vectors**2 / rate["dgemm_GFLOP_per_s"],
-                                 8e-9 * n * vectors**2 / BLOCK / rate["memory_GB_per_s"])}
+            "CMSSpMM": 8e-9 * (entry["sizes"]["M_entries"] / PARTS * entry["events"]["CMSSpMM"]["count"] + length * vectors) /
+                       rate["memory_GB_per_s"] + 8e-9 * length * vectors / rate["memory_write_GB_per_s"],
+            "CMSOrthogonal": orthogonal(entry, rate)}
 
 
-EVENTS = {"CMSFactor": "operations of the factor, dgemm", "CMSSolve": "two passes over the factor for each block, reading memory",
-          "CMSSpMM": "one pass over M for each product with M or K, the vectors of the eigen-solve read and written once",
-          "CMSOrthogonal": "every vector against all earlier ones once: dgemm, or reading them twice for each block"}
+EVENTS = {"CMSFactor": "operations of the factor, dgemm", "CMSSolve": "two passes over a part of the factor for each block, reading memory",
+          "CMSSpMM": "one pass over a part of M for each product with M or K, the vectors of the eigen-solve read and written once",
+          "CMSOrthogonal": "every vector against all earlier ones of its part once: dgemm, or reading them twice for each block"}
 
 
 def memory_MiB(entry):
-    """What has to stand in memory at once: K and M with 12 bytes an entry, the factor, and of n rows the vectors of Lanczos
-    or Psi and Phi."""
+    """What has to stand in memory at once: K and M with 12 bytes an entry, the factor, and the vectors of Lanczos, or Psi
+    and Phi of n rows."""
     s = entry["sizes"]
-    columns = max(lanczos(entry)[1], s["masters"] + s["modes"])
+    columns = max(lanczos(entry)[1] / PARTS, s["masters"] + s["modes"])
     return (12 * (s["K_entries"] + s["M_entries"]) + 8 * entry["factor_entries"] + 8 * s["slaves"] * columns) / 2**20
