@@ -1,8 +1,7 @@
 #include "mbs_export/response_error.hpp"
 
 #include <algorithm>
-#include <complex>
-#include <numbers>
+#include <utility>
 
 #include "common/eigen_every.hpp"
 #include "linear/dense/dense_solvers.hpp"
@@ -13,97 +12,8 @@ namespace chladni::mbs_export {
 namespace {
 
 using Eigen::Index, Eigen::MatrixXcd, Eigen::MatrixXd, Eigen::VectorXcd, Eigen::VectorXd;
-using Complex = std::complex<double>;
 
-constexpr double zeta = 0.01;  // of critical, in the comparison only
-constexpr Complex stiffness_factor{1.0, 2.0 * zeta};
 constexpr double dependent = 1e-8;  // what is left of a vector after orthogonalisation
-
-VectorXcd dynamic_stiffness(const VectorXd& omega, double Omega)
-{
-  return stiffness_factor * omega.cwiseAbs2().cast<Complex>().array() - Omega * Omega;
-}
-
-/// Units in which forces and moments count alike: each of the two divided by the square root of its
-/// mean static flexibility.
-VectorXd commensurable_units(const VectorXd& omega, const MatrixXd& B,
-                             const std::vector<char>& is_moment)
-{
-  const VectorXd flexibility_k =
-      (omega.array() > 0.0).select(omega.array().max(1e-300).square().inverse(), 0.0);
-  const VectorXd flexibility = B.cwiseAbs2().transpose() * flexibility_k;
-  double sum[2] = {0.0, 0.0};
-  Index n[2] = {0, 0};
-  for (Index j = 0; j < B.cols(); ++j) {
-    const int unit = is_moment[std::size_t(j)] ? 1 : 0;
-    sum[unit] += flexibility[j];
-    ++n[unit];
-  }
-  VectorXd units = VectorXd::Ones(B.cols());
-  for (Index j = 0; j < B.cols(); ++j) {
-    const int unit = is_moment[std::size_t(j)] ? 1 : 0;
-    if (sum[unit] > 0.0) units[j] = std::sqrt(static_cast<double>(n[unit]) / sum[unit]);
-  }
-  return units;
-}
-
-/// [m x n] squares of what each mode contributes to the response to each load.
-MatrixXd contributions(const VectorXd& omega, const MatrixXd& B, double Omega)
-{
-  const VectorXd weight = B.rowwise().squaredNorm().array() /
-                          dynamic_stiffness(omega, Omega).array().abs2().max(1e-300);
-  return B.cwiseAbs2().transpose() * weight.asDiagonal();
-}
-
-/// Clusters that respond at their own frequency with more than `error` of what all modes do.
-std::vector<int> resonances(const ReferenceResponse& reference, const Tolerance& tolerance)
-{
-  std::vector<int> excited;
-  for (std::size_t c = 0; c < reference.clusters.size(); ++c) {
-    const auto [first, end] = reference.clusters[c];
-    const double Omega = reference.omega[first];
-    if (Omega == 0.0 || Omega > 2.0 * std::numbers::pi * tolerance.up_to_Hz) continue;
-    const MatrixXd squares = contributions(reference.omega, reference.B, Omega);
-    const VectorXd own = squares.middleCols(first, end - first).rowwise().sum();
-    const VectorXd all = squares.rowwise().sum();
-    if ((own.array() > tolerance.error * tolerance.error * all.array()).any())
-      excited.push_back(static_cast<int>(c));
-  }
-  return excited;
-}
-
-/// Ascending, without neighbours closer than a tenth of a resonance's width.
-VectorXd thinned(std::vector<double> Omega)
-{
-  std::ranges::sort(Omega);
-  std::vector<double> grid;
-  for (const double x : Omega)
-    if (grid.empty() || x - grid.back() > 0.1 * zeta * x) grid.push_back(x);
-  return Eigen::Map<const VectorXd>(grid.data(), Index(grid.size()));
-}
-
-VectorXd frequency_grid(const ReferenceResponse& reference, double Omega_max)
-{
-  // A free body answers static loads with infinite motion; its range begins above zero.
-  double lowest = reference.omega[0] == 0.0 ? 1e-2 * Omega_max : 0.0;
-  if (!reference.resonances.empty()) {
-    lowest = std::min(
-        lowest,
-        0.1 * reference.omega[reference.clusters[std::size_t(reference.resonances[0])].first]);
-  }
-  std::vector<double> knots{lowest}, grid{lowest, Omega_max};
-  for (const int c : reference.resonances)
-    knots.push_back(reference.omega[reference.clusters[std::size_t(c)].first]);
-  for (std::size_t i = 1; i < knots.size(); ++i)
-    for (const double x : {1.0 - zeta, 1.0, 1.0 + zeta})
-      if (x * knots[i] <= Omega_max) grid.push_back(x * knots[i]);
-  knots.push_back(Omega_max);
-  for (std::size_t i = 1; i < knots.size(); ++i)
-    for (const double part : {0.25, 0.5, 0.75})
-      if (knots[i] > knots[i - 1]) grid.push_back(knots[i - 1] + part * (knots[i] - knots[i - 1]));
-  std::erase_if(grid, [&](double x) { return x < lowest; });
-  return thinned(std::move(grid));
-}
 
 /// [n x k] vectors of modal amplitudes seen by the basis: V^T D v and v^T D v need only these.
 struct Addition {
@@ -136,13 +46,13 @@ void for_growth(const ReferenceResponse& reference, const TrialBasis& basis, con
   std::vector<MatrixXcd> v_D_w(std::size_t(n_g), MatrixXcd(n, n));
   for (Index g = 0; g < n_g; ++g) {
     const double Omega_squared = reference.Omega[g] * reference.Omega[g];
-    const VectorXcd d = dynamic_stiffness(basis.omega_p, reference.Omega[g]);
-    const MatrixXcd V_D_v = stiffness_factor * added.V_K_v - Omega_squared * added.V_v;
+    const VectorXcd d = damped_stiffness(basis.omega_p, reference.Omega[g]);
+    const MatrixXcd V_D_v = stiffness_factor() * added.V_K_v - Omega_squared * added.V_v;
     const MatrixXcd scaled_g = d.cwiseInverse().asDiagonal() * V_D_v;
     scaled.middleCols(2 * n * g, n) = scaled_g.real();
     scaled.middleCols(2 * n * g + n, n) = scaled_g.imag();
     v_D_w[std::size_t(g)] =
-        stiffness_factor * added.v_K_v - Omega_squared * added.v_v - V_D_v.transpose() * scaled_g;
+        stiffness_factor() * added.v_K_v - Omega_squared * added.v_v - V_D_v.transpose() * scaled_g;
   }
   const MatrixXd of_V = basis.outputs * scaled;
   for (Index g = 0; g < n_g; ++g) {
@@ -224,43 +134,6 @@ MatrixXd independent(const MatrixXd& V, const MatrixXd& X)
 }
 
 }  // namespace
-
-std::vector<int> moved_modes(const VectorXd& omega, const MatrixXd& B)
-{
-  std::vector<int> moved;
-  for (int k = 0; k < int(omega.size()); ++k)
-    if (omega[k] == 0.0 || !B.row(k).isZero(0.0)) moved.push_back(k);
-  if (moved.empty()) moved.push_back(0);
-  return moved;
-}
-
-ReferenceResponse reference_response(const VectorXd& omega, const MatrixXd& B,
-                                     const LoadedDofs& loads, const Tolerance& tolerance)
-{
-  const VectorXd unit = commensurable_units(omega, B, loads.is_moment);
-  ReferenceResponse reference{.omega = omega,
-                              .B = B * unit.asDiagonal(),
-                              .unit = unit,
-                              .clusters = mode_clusters(omega),
-                              .resonances = {},
-                              .Omega = {},
-                              .H = {},
-                              .size = {}};
-  reference.resonances = resonances(reference, tolerance);
-  reference.Omega = frequency_grid(reference, 2.0 * std::numbers::pi * tolerance.up_to_Hz);
-  reference.size.resize(B.cols(), reference.Omega.size());
-  for (Index g = 0; g < reference.Omega.size(); ++g) {
-    const VectorXcd flexibility = dynamic_stiffness(omega, reference.Omega[g]).cwiseInverse();
-    MatrixXcd H(B.cols(), B.cols());
-    H.real() = reference.B.transpose() * (flexibility.real().asDiagonal() * reference.B);
-    H.imag() = reference.B.transpose() * (flexibility.imag().asDiagonal() * reference.B);
-    const VectorXd incoherent =
-        contributions(omega, reference.B, reference.Omega[g]).rowwise().sum().cwiseSqrt();
-    reference.size.col(g) = H.colwise().norm().transpose().cwiseMax(incoherent).cwiseMax(1e-300);
-    reference.H.push_back(std::move(H));
-  }
-  return reference;
-}
 
 int TrialBasis::n_kept() const
 {
@@ -350,11 +223,11 @@ VectorXcd missing_response(const ReferenceResponse& reference, const TrialBasis&
 {
   const double Omega = reference.Omega[g];
   const VectorXd b = reference.B.col(j);
-  VectorXcd x = dynamic_stiffness(reference.omega, Omega).cwiseInverse().cwiseProduct(b);
+  VectorXcd x = damped_stiffness(reference.omega, Omega).cwiseInverse().cwiseProduct(b);
   for (Index k = 0; k < x.size(); ++k)
     if (basis.is_kept[std::size_t(k)]) x[k] = 0.0;
   const VectorXd b_p = basis.V.transpose() * b;
-  const VectorXcd q_p = dynamic_stiffness(basis.omega_p, Omega).cwiseInverse().cwiseProduct(b_p);
+  const VectorXcd q_p = damped_stiffness(basis.omega_p, Omega).cwiseInverse().cwiseProduct(b_p);
   return x - basis.V * q_p;
 }
 

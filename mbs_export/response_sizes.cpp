@@ -8,7 +8,7 @@
 #include "mbs_export/body_option_error.hpp"
 #include "mbs_export/held_body.hpp"
 #include "mbs_export/held_modes.hpp"
-#include "mbs_export/response_error.hpp"
+#include "mbs_export/reference_response.hpp"
 
 namespace chladni::mbs_export {
 namespace {
