@@ -18,7 +18,7 @@ void Phases::begun(const std::string& name)
 void Phases::ended()
 {
   // A page that is given back is cleared anew when the next phase touches it.
-  constexpr double worth_it_MiB = 256.0;  // of all ranks, which may be on one machine
+  constexpr double worth_it_MiB = 128.0;  // of all ranks, which may be on one machine
   if (linear::freed_MiB() * petsc::size(PETSC_COMM_WORLD) > worth_it_MiB) linear::give_back_freed();
   listener_.reset();
   clock_.end_phase(name_);

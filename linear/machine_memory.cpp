@@ -2,8 +2,10 @@
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
+#include <string_view>
 
 #include "common/petsc.hpp"
 
@@ -21,9 +23,76 @@ double sum_on_machine(double own, MPI_Comm comm)
   return sum;
 }
 
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// The number in a file; infinity where there is none, as "max".
+double number_in(const std::filesystem::path& file)
+{
+  std::ifstream stream(file);
+  double number = unlimited;
+  return stream >> number ? number : unlimited;
+}
+
+/// The number behind a name in a file of names and numbers; 0 where there is none.
+double named_number(const std::filesystem::path& file, const std::string& wanted)
+{
+  std::ifstream stream(file);
+  double number = 0.0;
+  for (std::string name; stream >> name >> number;)
+    if (name == wanted) return number;
+  return 0.0;
+}
+
+/// How a version of control groups names its files.
+struct GroupFiles {
+  std::filesystem::path folder;
+  const char *limit, *taken, *active_files, *inactive_files;
+};
+
+double free_bytes(const std::filesystem::path& group, const GroupFiles& names)
+{
+  const double limit = number_in(group / names.limit), taken = number_in(group / names.taken);
+  if (limit == unlimited || taken == unlimited) return unlimited;
+  const std::filesystem::path statistics = group / "memory.stat";
+  const double files =
+      named_number(statistics, names.active_files) + named_number(statistics, names.inactive_files);
+  return std::max(0.0, limit - std::max(0.0, taken - files));
+}
+
+/// Of a group and of all above it. In a container the path of a group is that of the machine, and
+/// the files of the group are those of the root.
+double free_bytes_up_to_root(std::filesystem::path group, const GroupFiles& names)
+{
+  double free = free_bytes(names.folder, names);
+  for (group = group.relative_path(); !group.empty(); group = group.parent_path())
+    free = std::min(free, free_bytes(names.folder / group, names));
+  return free;
+}
+
 }  // namespace
 
-double free_MiB()
+double free_MiB_of_control_group(const ControlGroups& where)
+{
+  const GroupFiles first{where.root / "memory", "memory.limit_in_bytes", "memory.usage_in_bytes",
+                         "total_active_file", "total_inactive_file"};
+  const GroupFiles second{where.root, "memory.max", "memory.current", "active_file",
+                          "inactive_file"};
+  std::ifstream groups(where.groups);
+  double free = unlimited;
+  for (std::string line; std::getline(groups, line);) {  // number:controllers:path
+    const std::size_t name = line.find(':'), path = line.find(':', name + 1);
+    if (path == std::string::npos) continue;
+    const std::string_view controllers = std::string_view(line).substr(name + 1, path - name - 1);
+    const std::filesystem::path group = line.substr(path + 1);
+    if (controllers.empty()) free = std::min(free, free_bytes_up_to_root(group, second));
+    if (controllers == "memory") free = std::min(free, free_bytes_up_to_root(group, first));
+  }
+  return free / bytes_in_MiB;
+}
+
+namespace {
+
+double free_MiB_of_machine()
 {
   std::ifstream meminfo("/proc/meminfo");
   std::string name, unit;
@@ -32,7 +101,14 @@ double free_MiB()
     if (name == "MemAvailable:") return KiB / 1024.0;
     std::getline(meminfo, unit);
   }
-  return std::numeric_limits<double>::infinity();
+  return unlimited;
+}
+
+}  // namespace
+
+double free_MiB()
+{
+  return std::min(free_MiB_of_machine(), free_MiB_of_control_group());
 }
 
 void give_back_freed()

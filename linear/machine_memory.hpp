@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 
+#include <filesystem>
 #include <limits>
 #include <string>
 
@@ -17,8 +18,20 @@ struct MemoryNeed {
   bool fits() const { return needed_MiB <= free_MiB; }
 };
 
-/// MiB that processes may still take on this machine, by the kernel's estimate.
+/// MiB that processes may still take on this machine, by the kernel's estimate, or fewer where the
+/// control group of this process, as of a container or a job of a cluster, may take no more.
 double free_MiB();
+
+/// Where the kernel says what a control group may take, and what it has taken.
+struct ControlGroups {
+  std::filesystem::path groups = "/proc/self/cgroup";  ///< those of this process
+  std::filesystem::path root = "/sys/fs/cgroup";       ///< of their files, versions 1 and 2
+};
+
+/// MiB that the control groups of this process and those above them let it take; infinity where
+/// they set no limit. Cached files do not count as taken: the kernel drops them first.
+/// Source: Linux, Documentation/admin-guide/cgroup-v1/memory.rst and cgroup-v2.rst.
+double free_MiB_of_control_group(const ControlGroups& where = {});
 
 /// Returns freed heap memory to the operating system, in pieces of any size.
 void give_back_freed();

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "common/petsc.hpp"
+#include "linear/kernels/scratch.hpp"
 
 namespace chladni::linear {
 
@@ -17,6 +18,7 @@ constexpr std::array solvers{ModeSolver::block_lanczos, ModeSolver::krylov_schur
 struct Said {
   PetscReal memory_MiB = 0.0;
   std::array<char, 64> solver{};
+  std::array<char, PETSC_MAX_PATH_LEN> scratch{};
   LanczosOptions lanczos;
 };
 
@@ -28,6 +30,9 @@ PetscErrorCode ask(MPI_Comm comm, const OptionSource& source, Said& said)
   PetscOptionsObject->options = source.database;
   PetscCall(PetscOptionsReal("-memory", "MiB of each machine for the factor; 0: what is free",
                              nullptr, said.memory_MiB, &said.memory_MiB, nullptr));
+  PetscCall(PetscOptionsString("-scratch", "Folder for files of modes and constraint modes",
+                               nullptr, said.scratch.data(), said.scratch.data(),
+                               said.scratch.size(), nullptr));
   PetscCall(PetscOptionsString("-modes_solver", "block-lanczos or krylov-schur", nullptr,
                                said.solver.data(), said.solver.data(), said.solver.size(),
                                nullptr));
@@ -67,13 +72,19 @@ SolverOptions read_solver_options(MPI_Comm comm, const SolverOptions& defaults)
 {
   Said said{.memory_MiB = defaults.factor.memory_MiB.value_or(0.0),
             .solver = {},
+            .scratch = {},
             .lanczos = defaults.lanczos};
   std::ranges::copy(solver_names[std::ranges::find(solvers, said.lanczos.solver) - solvers.begin()],
                     said.solver.begin());
+  if (defaults.scratch.size() < said.scratch.size())
+    std::ranges::copy(defaults.scratch, said.scratch.begin());
   petsc::check(ask(comm, defaults.petsc, said));
   refuse_nonsense(said, defaults.petsc.prefix);
-  SolverOptions options{
-      .petsc = defaults.petsc, .factor = defaults.factor, .lanczos = said.lanczos};
+  SolverOptions options{.petsc = defaults.petsc,
+                        .factor = defaults.factor,
+                        .lanczos = said.lanczos,
+                        .scratch = said.scratch.data()};
+  if (!options.scratch.empty()) require_scratch(options.scratch, comm);
   const auto place = std::ranges::find(solver_names, said.solver.data()) - solver_names.begin();
   options.lanczos.solver = solvers[place];
   options.factor.memory_MiB.reset();

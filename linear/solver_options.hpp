@@ -49,6 +49,9 @@ struct SolverOptions {
   OptionSource petsc = {};
   FactorOptions factor = {};
   LanczosOptions lanczos = {};
+  /// folder for files that hold modes, constraint modes and the basis of block Lanczos; empty: they
+  /// are in memory
+  std::string scratch = {};
   bool operator==(const SolverOptions&) const = default;
 };
 

@@ -4,6 +4,7 @@
 
 #include "linear/cholesky/cholesky_types.hpp"
 #include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/scratch.hpp"
 
 namespace chladni::reduce {
 
@@ -49,7 +50,7 @@ petsc::Matrix constraint_modes(const linear::Factorization& K_ss, const Blocks& 
 {
   PetscInt n_m = 0;
   petsc::check(MatGetSize(K.ms, &n_m, nullptr));
-  petsc::Matrix Psi = linear::uninitialized_dense(K.ss, n_m);
+  petsc::Matrix Psi = linear::large_dense(K.ss, n_m, K_ss.options().scratch);
   if (petsc::size(petsc::communicator(K.ms)) == 1 || linear::is_ours(K_ss.factor())) {
     petsc::Matrix minus_K_ms;
     petsc::check(MatDuplicate(K.ms, MAT_COPY_VALUES, minus_K_ms.put()));

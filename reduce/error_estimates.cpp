@@ -17,18 +17,6 @@ using Eigen::MatrixXd;
 
 namespace {
 
-petsc::Matrix zero_block(Mat like, Eigen::Index n_columns)
-{
-  PetscInt n_local = 0;
-  PetscInt n = 0;
-  petsc::check(MatGetLocalSize(like, &n_local, nullptr));
-  petsc::check(MatGetSize(like, &n, nullptr));
-  petsc::Matrix block;
-  petsc::check(MatCreateDense(petsc::communicator(like), n_local, PETSC_DECIDE, n,
-                              static_cast<PetscInt>(n_columns), nullptr, block.put()));
-  return block;
-}
-
 /// Of motions u: the residual at the slaves, the sum of K_jj u_j^2 over all DOFs, that of M_jj
 /// u_j^2 over u^T M u, and the Rayleigh quotient by the matrices of the FE model.
 struct Residuals {
@@ -57,72 +45,110 @@ std::vector<double> quadratic_forms(const Blocks& A, Mat A_u_s, Mat u_s, const M
   return forms;
 }
 
-/// Adds to sums_k the sum of A_jj X(j, k)^2 over the local rows j.
-template <typename Value>
-void add_form_of_diagonal(Mat A, const Value& X, std::vector<double>& sums)
+petsc::Vector diagonal_of(Mat A)
 {
   petsc::Vector diagonal;
-  PetscInt n_local = 0;
-  const PetscScalar* A_jj = nullptr;
   petsc::check(MatCreateVecs(A, diagonal.put(), nullptr));
   petsc::check(MatGetDiagonal(A, diagonal));
-  petsc::check(VecGetLocalSize(diagonal, &n_local));
-  petsc::check(VecGetArrayRead(diagonal, &A_jj));
+  return diagonal;
+}
+
+/// Adds to sums_k the sum of d_j X(j, k)^2 over the local rows j.
+template <typename Value>
+void add_diagonal_form(Vec d, const Value& X, std::vector<double>& sums)
+{
+  PetscInt n_local = 0;
+  const PetscScalar* d_j = nullptr;
+  petsc::check(VecGetLocalSize(d, &n_local));
+  petsc::check(VecGetArrayRead(d, &d_j));
   for (std::size_t k = 0; k < sums.size(); ++k) {
     for (PetscInt j = 0; j < n_local; ++j) {
       const double x = X(j, static_cast<PetscInt>(k));
-      sums[k] += A_jj[j] * x * x;
+      sums[k] += d_j[j] * x * x;
     }
   }
-  petsc::check(VecRestoreArrayRead(diagonal, &A_jj));
+  petsc::check(VecRestoreArrayRead(d, &d_j));
 }
 
-std::vector<double> form_of_diagonal(const Blocks& A, Mat u_s, const MatrixXd& x_m)
-{
-  const MPI_Comm comm = petsc::communicator(A.ss);
-  std::vector<double> sums(x_m.cols(), 0.0);
-  add_form_of_diagonal(A.ss, linear::LocalRows(u_s), sums);
-  PetscInt first = 0;
-  petsc::check(MatGetOwnershipRange(A.mm, &first, nullptr));
-  add_form_of_diagonal(
-      A.mm, [&](PetscInt j, PetscInt k) { return x_m(first + j, k); }, sums);
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
-                comm);
-  return sums;
-}
+/// A matrix in the forms that estimates need of it.
+class EstimatedForm {
+ public:
+  explicit EstimatedForm(const Blocks& A)
+      : A_(A), diagonal_s_(diagonal_of(A.ss)), diagonal_m_(diagonal_of(A.mm))
+  {}
 
-/// r_s = K_ss Phi x_q - lambda (M_ss u_s + M_sm x_m): the constraint modes balance K by themselves,
-/// and leaving them out avoids the difference of two large forces.
-Residuals residuals(const Condensation& system, const ReducedPairs& pairs)
-{
-  const auto& [K_ss, Q_CB, K, M] = system;
-  PetscInt n_m = 0;
-  petsc::check(MatGetSize(Q_CB.Psi, nullptr, &n_m));
-  const MatrixXd x_m = pairs.X.topRows(n_m), x_q = pairs.X.bottomRows(pairs.X.rows() - n_m);
-  petsc::Matrix elastic = zero_block(Q_CB.Psi, pairs.X.cols());  // Phi x_q
-  if (Q_CB.modes) linear::add_product(1.0, Q_CB.modes->Phi, x_q, elastic);
-  petsc::Matrix r = linear::uninitialized_dense(K.ss, pairs.X.cols());
-  linear::SparseProduct(K.ss).apply(elastic, r);
-  linear::add_product(1.0, Q_CB.Psi, x_m, elastic);  // now u_s
-  petsc::Matrix product = linear::uninitialized_dense(K.ss, pairs.X.cols());
-  linear::SparseProduct(K.ss).apply(elastic, product);
-  std::vector<double> rayleigh = quadratic_forms(K, product, elastic, x_m);
-  linear::SparseProduct(M.ss).apply(elastic, product);
-  const std::vector<double> inertia = quadratic_forms(M, product, elastic, x_m);
-  std::vector<double> inertia_of_diagonal = form_of_diagonal(M, elastic, x_m);
-  for (std::size_t k = 0; k < rayleigh.size(); ++k) {
-    rayleigh[k] /= inertia[k];
-    inertia_of_diagonal[k] /= inertia[k];
+  const Blocks& blocks() const { return A_; }
+  /// A_u_s <- A_ss u_s. Its workspace is not kept: that of K and M together is a large part of it.
+  void apply(Mat u_s, Mat A_u_s) const { linear::SparseProduct(A_.ss).apply(u_s, A_u_s); }
+
+  /// The sum of A_jj u_j^2 over all DOFs of each column of u = (u_s, x_m).
+  std::vector<double> of_diagonal(Mat u_s, const MatrixXd& x_m) const
+  {
+    std::vector<double> sums(x_m.cols(), 0.0);
+    add_diagonal_form(diagonal_s_, linear::LocalRows(u_s), sums);
+    PetscInt first = 0;
+    petsc::check(MatGetOwnershipRange(A_.mm, &first, nullptr));
+    add_diagonal_form(
+        diagonal_m_, [&](PetscInt j, PetscInt k) { return x_m(first + j, k); }, sums);
+    linear::sum_over_ranks(sums, petsc::communicator(A_.ss));
+    return sums;
   }
-  linear::add_sparse_product(M.sm, x_m, product);
-  MatrixXd minus_lambda = MatrixXd::Zero(pairs.X.cols(), pairs.X.cols());
-  for (PetscInt i = 0; i < minus_lambda.rows(); ++i) minus_lambda(i, i) = -pairs.lambda[i];
-  linear::add_product(1.0, product, minus_lambda, r);
-  return {.r_s = std::move(r),
-          .energy_of_diagonal = form_of_diagonal(K, elastic, x_m),
-          .inertia_of_diagonal = std::move(inertia_of_diagonal),
-          .rayleigh = std::move(rayleigh)};
-}
+
+ private:
+  const Blocks& A_;
+  petsc::Vector diagonal_s_, diagonal_m_;
+};
+
+/// The residuals of reduced pairs, block by block in the same memory.
+class BlockResiduals {
+ public:
+  /// @param most  pairs of a block
+  BlockResiduals(const Condensation& system, PetscInt most)
+      : Q_CB_(system.Q_CB),
+        K_(system.K),
+        M_(system.M),
+        motion_(linear::uninitialized_dense(system.K.ss, most)),
+        product_(linear::uninitialized_dense(system.K.ss, most))
+  {}
+
+  /// r_s = K_ss Phi x_q - lambda (M_ss u_s + M_sm x_m): the constraint modes balance K by
+  /// themselves, and leaving them out avoids the difference of two large forces.
+  Residuals of(const ReducedPairs& pairs)
+  {
+    PetscInt n_m = 0;
+    petsc::check(MatGetSize(Q_CB_.Psi, nullptr, &n_m));
+    const auto n = static_cast<PetscInt>(pairs.X.cols());
+    const MatrixXd x_m = pairs.X.topRows(n_m), x_q = pairs.X.bottomRows(pairs.X.rows() - n_m);
+    const linear::ColumnRange u_s(motion_, 0, n), product(product_, 0, n);
+    petsc::Matrix r = linear::uninitialized_dense(K_.blocks().ss, n);
+    petsc::check(MatZeroEntries(u_s));
+    if (Q_CB_.modes) linear::add_product(1.0, Q_CB_.modes->Phi, x_q, u_s);
+    K_.apply(u_s, r);  // of Phi x_q alone
+    linear::add_product(1.0, Q_CB_.Psi, x_m, u_s);
+    K_.apply(u_s, product);
+    std::vector<double> rayleigh = quadratic_forms(K_.blocks(), product, u_s, x_m);
+    M_.apply(u_s, product);
+    const std::vector<double> inertia = quadratic_forms(M_.blocks(), product, u_s, x_m);
+    std::vector<double> inertia_of_diagonal = M_.of_diagonal(u_s, x_m);
+    for (std::size_t k = 0; k < rayleigh.size(); ++k) {
+      rayleigh[k] /= inertia[k];
+      inertia_of_diagonal[k] /= inertia[k];
+    }
+    linear::add_sparse_product(M_.blocks().sm, x_m, product);
+    MatrixXd minus_lambda = MatrixXd::Zero(n, n);
+    for (PetscInt i = 0; i < n; ++i) minus_lambda(i, i) = -pairs.lambda[i];
+    linear::add_product(1.0, product, minus_lambda, r);
+    return {.r_s = std::move(r),
+            .energy_of_diagonal = K_.of_diagonal(u_s, x_m),
+            .inertia_of_diagonal = std::move(inertia_of_diagonal),
+            .rayleigh = std::move(rayleigh)};
+  }
+
+ private:
+  const CraigBamptonBasis& Q_CB_;
+  EstimatedForm K_, M_;
+  petsc::Matrix motion_, product_;
+};
 
 ReducedPairs slice(const ReducedPairs& pairs, PetscInt first, PetscInt last)
 {
@@ -155,18 +181,19 @@ void add_inner_products(const std::vector<linear::InverseForm>& forms,
 ErrorEstimates error_estimates(const Condensation& system, const ReducedPairs& pairs,
                                Purpose purpose)
 {
-  constexpr PetscInt most = 32;  // pairs at a time: bounds the memory
+  const PetscInt most = linear::columns_at_a_time(system.K_ss.matrix());
   constexpr double eps = std::numeric_limits<double>::epsilon();
   const auto n_pairs = static_cast<PetscInt>(pairs.lambda.size());
   ErrorEstimates estimates;
   const bool with_inner_products = purpose == Purpose::bounds;
   if (with_inner_products) estimates.inner_products = MatrixXd::Zero(n_pairs, n_pairs);
   std::vector<linear::InverseForm> forms;  // of K_ss^-1, on r of the pairs so far
+  BlockResiduals residuals(system, std::min(most, n_pairs));
   for (PetscInt first = 0; first < n_pairs; first += most) {
     linear::report_progress(double(first) / n_pairs);
     const ReducedPairs some = slice(pairs, first, std::min(first + most, n_pairs));
     if (!with_inner_products) forms.clear();
-    Residuals of = residuals(system, some);
+    Residuals of = residuals.of(some);
     forms.push_back(linear::inverse_form(system.K_ss.factor(), std::move(of.r_s)));
     const std::vector<double> squares =
         linear::column_products(forms.back().left, forms.back().right());

@@ -33,16 +33,16 @@ MatrixXd squared_lengths(Mat K_Phi, Mat M_Phi, const double* omega)
 
 double largest_residual(const FixedInterfaceModes& modes, Mat K_ss, Mat M_ss)
 {
-  constexpr PetscInt most = 32;  // columns at a time: bounds the memory
-  const linear::SparseProduct K(K_ss), M(M_ss);
+  const PetscInt most = linear::columns_at_a_time(K_ss);
   const auto n = static_cast<PetscInt>(modes.omega.size());
   double largest = 0.0;
   for (PetscInt first = 0; first < n; first += most) {
     const PetscInt last = std::min(first + most, n);
     const petsc::Matrix K_Phi = linear::uninitialized_dense(K_ss, last - first);
     const petsc::Matrix M_Phi = linear::uninitialized_dense(K_ss, last - first);
-    K.apply(linear::ColumnRange(modes.Phi, first, last), K_Phi);
-    M.apply(linear::ColumnRange(modes.Phi, first, last), M_Phi);
+    const linear::ColumnRange Phi(modes.Phi, first, last);
+    linear::SparseProduct(K_ss).apply(Phi, K_Phi);
+    linear::SparseProduct(M_ss).apply(Phi, M_Phi);
     const MatrixXd lengths = squared_lengths(K_Phi, M_Phi, modes.omega.data() + first);
     for (PetscInt j = 0; j < lengths.cols(); ++j)
       largest = std::max(largest, std::sqrt(lengths(0, j) / lengths(1, j)));

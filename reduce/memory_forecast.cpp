@@ -48,6 +48,11 @@ bool needs_matrices(const ReductionOptions& options, bool counts)
   return options.keeps_matrices || counts || has_free_masters(options.basis.method);
 }
 
+bool lets_matrices_go_at_once(const ReductionOptions& options)
+{
+  return !needs_matrices(options, options.count.value_or(true));
+}
+
 MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, Mat M_ss,
                                const ReductionOptions& options)
     : options_(options), n_masters_(static_cast<double>(body.masters.size()))
@@ -74,16 +79,18 @@ MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, Mat M_ss,
       mass_of_parts_ = own_MiB(M);
     }
   }
-  let_go_MiB_ = keeps ? 0.0 : K_MiB_ + M_MiB_;
+  let_go_MiB_ = keeps || lets_matrices_go_at_once(options) ? 0.0 : K_MiB_ + M_MiB_;
+  columns_at_a_time_ = linear::columns_at_a_time(K_ss);
+  in_memory_ = solver.scratch.empty() ? 1.0 : 0.0;
 }
 
-/// Pairs are looked at in blocks: their motions, their residuals, which become half a solution, and
-/// a product. Bounds keep the half solutions of all.
+/// Pairs are looked at in blocks: their motions, their residuals, which become half a solution, a
+/// product with its workspace, and a panel of the factor. Bounds keep the half solutions of all.
 double MemoryForecast::columns_in_estimates(double n_modes) const
 {
-  constexpr double block = 32.0, arrays = 3.0, most_pairs = 100.0;
+  constexpr double arrays = 4.0, workspace = 32.0, most_pairs = 100.0;
   const double kept = options_.count.value_or(false) ? std::min(n_modes, most_pairs) : 0.0;
-  return arrays * block + kept;
+  return arrays * columns_at_a_time_ + workspace + kept;
 }
 
 /// Of block Lanczos, of the length of all slaves: the most that parts take is where all modes are
@@ -94,27 +101,34 @@ double MemoryForecast::basis_columns(double n_modes) const
   return std::min(largest_part_ * basis_for_each_mode * n_modes + least_basis, n_slaves_);
 }
 
-double MemoryForecast::beside_MiB(double n_modes) const
+/// While modes are sought, with the constraint modes where they come first.
+double MemoryForecast::columns_in_search(double n_modes) const
 {
   constexpr double blocks_of_lanczos = 16.0;
-  n_modes = std::min(n_modes, n_slaves_);
-  const double basis = basis_columns(n_modes);
+  if (n_modes == 0.0) return 0.0;
   const bool is_free = has_free_masters(options_.basis.method);
   const double there = options_.basis.tolerance || is_free ? n_masters_ : 0.0;  // Psi comes first
-  // Beside Phi, and beside Psi.
-  const double of_parts =
-      largest_part_ < 1.0 ? largest_part_ * (n_modes + (is_free ? n_masters_ : 0.0)) : 0.0;
-  const double in_search =
-      n_modes > 0.0 ? there + basis + n_modes + of_parts + blocks_of_lanczos : 0.0;
+  const double copied_Psi = largest_part_ < 1.0 && is_free ? largest_part_ * n_masters_ : 0.0;
+  const double modes_of_part = largest_part_ < 1.0 ? largest_part_ * n_modes : 0.0;
+  const double large = there + basis_columns(n_modes) + n_modes + modes_of_part;
+  return in_memory_ * large + copied_Psi + blocks_of_lanczos;
+}
+
+double MemoryForecast::beside_MiB(double n_modes) const
+{
+  n_modes = std::min(n_modes, n_slaves_);
   const double kept = n_masters_ + n_modes;
+  const double kept_in_memory = has_free_masters(options_.basis.method)
+                                    ? in_memory_ * n_masters_ + n_modes
+                                    : in_memory_ * kept;
   const WorkAfterwards& later = options_.later;
   const double for_each =
       later.columns_for_each_kept + largest_part_ * later.of_a_part_for_each_kept;
   const double later_MiB =
       column_MiB_ * (later.columns + for_each * kept) + M_MiB_ * later.matrices;
-  return std::max(column_MiB_ * in_search + mass_of_parts_ +
+  return std::max(column_MiB_ * columns_in_search(n_modes) + mass_of_parts_ +
                       (options_.basis.tolerance ? trials_MiB(kept) : 0.0),
-                  column_MiB_ * kept +
+                  column_MiB_ * kept_in_memory +
                       std::max(column_MiB_ * columns_in_estimates(n_modes), later_MiB)) -
          let_go_MiB_;
 }
@@ -124,7 +138,8 @@ linear::SecondFactor MemoryForecast::second(double n_modes) const
   if (!options_.count.value_or(false)) return {};
   return {.entries = entries_of_counting_factor,
           // K - sigma M, of it the rows that are counted, and the graphs of their order
-          .beside_MiB = column_MiB_ * (n_masters_ + std::min(n_modes, n_slaves_)) + 3.0 * K_MiB_};
+          .beside_MiB = in_memory_ * column_MiB_ * (n_masters_ + std::min(n_modes, n_slaves_)) +
+                        3.0 * K_MiB_};
 }
 
 linear::FactorOptions MemoryForecast::at_first(linear::FactorOptions factor) const
@@ -145,8 +160,8 @@ void MemoryForecast::require(Mat factor, PetscInt n_modes) const
   throw Error(fmt::format(
       "fixed_interface_modes: the search goes on to {} modes; with the factor of K_ss and the "
       "memory beside it they need {:.0f} MiB on one machine, where {:.0f} MiB were free; use more "
-      "machines, a coarser mesh or fewer masters, lower the range, raise the tolerance, or raise "
-      "-cms_memory",
+      "machines, a coarser mesh or fewer masters, lower the range, raise the tolerance, give "
+      "-cms_scratch or raise -cms_memory",
       n_modes, need.needed_MiB, need.free_MiB));
 }
 

@@ -8,6 +8,10 @@ namespace chladni::reduce {
 /// counted, or the method has free masters.
 bool needs_matrices(const ReductionOptions& options, bool counts);
 
+/// True when K and M are not even needed while K_ss is factored: whether eigenvalues are counted
+/// does not depend on its factor.
+bool lets_matrices_go_at_once(const ReductionOptions& options);
+
 /// Predicts the memory that this rank needs beside the factor of K_ss in the most expensive phase.
 /// That is the basis of block Lanczos with the modes it returns, or Psi and Phi with the workspace
 /// of error estimates or of the caller, or these with the factor that counts eigenvalues, where a
@@ -28,6 +32,7 @@ class MemoryForecast {
 
  private:
   double beside_MiB(double n_modes) const;
+  double columns_in_search(double n_modes) const;
   double columns_in_estimates(double n_modes) const;
   linear::SecondFactor second(double n_modes) const;
 
@@ -37,6 +42,9 @@ class MemoryForecast {
   double largest_part_ = 1.0;   ///< share of the rows in the largest uncoupled part
   double mass_of_parts_ = 0.0;  ///< MiB
   double n_masters_, n_slaves_, column_MiB_, K_MiB_, M_MiB_, let_go_MiB_;
+  double columns_at_a_time_;  ///< of the estimates
+  /// Share of modes, constraint modes and bases in memory: none where they are in scratch files.
+  double in_memory_ = 1.0;
 };
 
 }  // namespace chladni::reduce

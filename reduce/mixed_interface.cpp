@@ -58,9 +58,10 @@ struct ElasticPairs {
   double lambda_left_out = std::numeric_limits<double>::infinity();
 };
 
-linear::PartedLanczos parted(const Flexibility& flexibility, Mat M)
+linear::PartedLanczos parted(const Flexibility& flexibility, Mat M, const std::string& scratch)
 {
-  const linear::BlockLanczosOptions options{.n_pairs = 0, .tolerance = tolerance};
+  const linear::BlockLanczosOptions options{
+      .n_pairs = 0, .tolerance = tolerance, .scratch = scratch};
   std::vector<linear::DecoupledPart> parts = flexibility.parts();
   if (parts.empty()) return {flexibility.solver(), flexibility.n_elastic(), M, options};
   return {std::move(parts), M, options};
@@ -71,7 +72,7 @@ linear::PartedLanczos parted(const Flexibility& flexibility, Mat M)
 ElasticPairs elastic_pairs(const WholeSystem& body, const Flexibility& flexibility,
                            const ReduceOptions& wanted)
 {
-  linear::PartedLanczos lanczos = parted(flexibility, body.M);
+  linear::PartedLanczos lanczos = parted(flexibility, body.M, body.K_ss.options().scratch);
   if (wanted.modes)
     lanczos.converge(*wanted.modes + 2);
   else

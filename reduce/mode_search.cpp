@@ -75,18 +75,19 @@ linear::EigenPairs krylov_schur(const linear::Factorization& K_ss, Mat M_ss, Pet
   return pairs;
 }
 
-linear::BlockLanczosOptions block_options(const linear::LanczosOptions& options)
+linear::BlockLanczosOptions block_options(const linear::SolverOptions& options)
 {
   return {.n_pairs = 0,
-          .block_size = options.block_size,
-          .max_subspace = options.subspace,
-          .tolerance = options.tolerance};
+          .block_size = options.lanczos.block_size,
+          .max_subspace = options.lanczos.subspace,
+          .tolerance = options.lanczos.tolerance,
+          .scratch = options.scratch};
 }
 
 /// By parts where K_ss and M_ss have some and the factor solves for them.
 linear::PartedLanczos lanczos(const linear::Factorization& K_ss, Mat M_ss)
 {
-  const linear::BlockLanczosOptions options = block_options(K_ss.options().lanczos);
+  const linear::BlockLanczosOptions options = block_options(K_ss.options());
   if (!linear::solves_for_parts(K_ss.factor())) return {K_ss.factor(), M_ss, options};
   std::vector<linear::DecoupledPart> parts;
   for (petsc::IndexSet& rows : linear::decoupled_rows(K_ss.matrix(), M_ss)) {

@@ -29,6 +29,13 @@ petsc::IndexSet own_masters(Mat K, const std::vector<PetscInt>& masters)
   return set;
 }
 
+void let_go(petsc::Matrix& K, petsc::Matrix& M)
+{
+  K = {};
+  M = {};
+  linear::give_back_freed();  // the basis does not come from the heap
+}
+
 /// With the name of the DOF that moves most where a part of the body is free.
 linear::Factorization factorized(const Body& body, Mat K_ss, const DofPartition& dofs,
                                  const linear::SolverOptions& options)
@@ -57,6 +64,7 @@ FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener&
   const MemoryForecast memory(body, K.ss, M.ss, options);
   linear::SolverOptions solver = options.solver;
   solver.factor = memory.at_first(solver.factor);
+  if (lets_matrices_go_at_once(options)) let_go(body.K, body.M);
   linear::Factorization K_ss = factorized(body, K.ss, dofs, solver);
   phases.end();
   const auto require_memory = [memory, factor = K_ss.factor()](PetscInt n_modes) {
@@ -110,11 +118,8 @@ Reduction reduction(FactoredBody& body, const ReductionOptions& wanted, const Su
   ReductionOptions options = wanted;
   options.basis.method = choice.method;
   const CountPlan count(body, options);
-  if (!needs_matrices(options, count.is_possible())) {  // the blocks are enough
-    body.K = {};
-    body.M = {};
-    linear::give_back_freed();  // the basis does not come from the heap
-  }
+  if (!needs_matrices(options, count.is_possible()))  // the blocks are enough
+    let_go(body.K, body.M);
   auto [basis, model, responses] = made(body, options, support, phases);
   if (basis.exact_up_to > 0.0 && !options.basis.tolerance && !options.basis.certified_up_to_Hz)
     options.basis.certified_up_to_Hz = basis.exact_up_to / (2.0 * std::numbers::pi);

@@ -21,8 +21,8 @@ void check_memory(Mat factor, MatFactorError error, const FactorOptions& options
       tightest_machine(options.beside_MiB, need.free_MiB, petsc::communicator(factor));
   throw Error(fmt::format(
       "factorize: the factor of K_ss and what comes beside it need {}{:.0f} MiB on one machine, "
-      "where {:.0f} MiB are free{}; use more machines, a coarser mesh, fewer masters or modes, or "
-      "raise -cms_memory",
+      "where {:.0f} MiB are free{}; use more machines, a coarser mesh, fewer masters or modes, "
+      "-cms_scratch or a larger -cms_memory",
       options.is_least ? "at least " : "", need.needed_MiB, need.free_MiB,
       beside.fits() ? "" : ": modes and constraint modes alone need more than there is"));
 }

@@ -1,28 +1,33 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <new>
 
 namespace chladni::linear {
 
-struct Free {
-  void operator()(double* values) const { std::free(values); }
+/// The block that malloc gave stands before the numbers.
+struct FreeAligned {
+  void operator()(double* numbers) const { std::free(reinterpret_cast<void**>(numbers)[-1]); }
 };
 
 /// An array of doubles that begins at a cache line. Its memory is not touched before it is written.
-using AlignedNumbers = std::unique_ptr<double, Free>;
+using AlignedNumbers = std::unique_ptr<double, FreeAligned>;
 
-/// Allocates n doubles.
+/// Allocates n doubles. By malloc: glibc's aligned_alloc asks for more than it takes, so that an
+/// array does not fit where one of the same size was before, and the heap grows.
 /// @throws std::bad_alloc
 inline AlignedNumbers aligned_numbers(std::size_t n)
 {
   constexpr std::size_t line = 64;
-  const std::size_t n_bytes = (n * sizeof(double) / line + 1) * line;
-  AlignedNumbers numbers(static_cast<double*>(std::aligned_alloc(line, n_bytes)));
-  if (!numbers) throw std::bad_alloc();
-  return numbers;
+  void* block = std::malloc(n * sizeof(double) + 2 * line);
+  if (block == nullptr) throw std::bad_alloc();
+  const std::uintptr_t behind_pointer = reinterpret_cast<std::uintptr_t>(block) + sizeof(void*);
+  auto* numbers = reinterpret_cast<double*>((behind_pointer + line - 1) / line * line);
+  reinterpret_cast<void**>(numbers)[-1] = block;
+  return AlignedNumbers(numbers);
 }
 
 }  // namespace chladni::linear

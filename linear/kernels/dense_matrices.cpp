@@ -80,6 +80,17 @@ petsc::Matrix uninitialized_dense(Mat A, Eigen::Index n_columns)
   return dense;
 }
 
+PetscInt columns_at_a_time(Mat A, PetscInt most)
+{
+  constexpr PetscInt panel = 8;
+  constexpr double long_column = 1 << 19;  // 32 of them take 128 MiB
+  PetscInt n = 0;
+  petsc::check(MatGetSize(A, &n, nullptr));
+  const double rows = std::max(1.0, double(n) / petsc::size(petsc::communicator(A)));
+  const auto n_panels = static_cast<PetscInt>(most * long_column / rows / panel);
+  return std::clamp(panel * n_panels, most / 4, most);
+}
+
 namespace {
 
 /// Rows of some columns in the memory, column-major.

@@ -71,6 +71,12 @@ void for_local_entries(Mat A, const Visit& visit)
 /// @note   Collective.
 petsc::Matrix uninitialized_dense(Mat A, Eigen::Index n_columns);
 
+/// How many columns with the rows of A to work on at a time: fewer where they are so long that a
+/// block of them is a large part of the memory.
+/// @param most  of columns that are not long; a multiple of 32
+/// @return the same on all ranks; a multiple of 8, no less than a fourth of `most`
+PetscInt columns_at_a_time(Mat A, PetscInt most = 32);
+
 /// The columns first .. last - 1 of a dense matrix without a copy, during the lifetime of this
 /// object; only one range of a matrix at a time.
 class ColumnRange {

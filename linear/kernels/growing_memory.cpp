@@ -1,55 +1,62 @@
 #include "linear/kernels/growing_memory.hpp"
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdlib>
-
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
-#include <sys/mman.h>
-#define CHLADNI_MAPS_MEMORY
-#endif
+#include <filesystem>
+#include <limits>
 
 namespace chladni::linear {
 
 namespace {
 
-#ifdef CHLADNI_MAPS_MEMORY
-
-/// nullptr when there is none.
-void* larger(void* values, std::size_t n_now, std::size_t n_bytes)
-{
-  void* memory = values == nullptr ? mmap(nullptr, n_bytes, PROT_READ | PROT_WRITE,
-                                          MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)
-                                   : mremap(values, n_now, n_bytes, MREMAP_MAYMOVE);
-  return memory == MAP_FAILED ? nullptr : memory;
-}
-
-void give_back(void* values, std::size_t n_bytes)
-{
-  munmap(values, n_bytes);
-}
-
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool maps_memory = false;  // malloc: sanitizers see who reads beyond its end
 #else
-
-/// From malloc, where sanitizers see who reads beyond the end.
-void* larger(void* values, std::size_t /*n_now*/, std::size_t n_bytes)
-{
-  return std::realloc(values, n_bytes);
-}
-
-void give_back(void* values, std::size_t /*n_bytes*/)
-{
-  std::free(values);
-}
-
+constexpr bool maps_memory = true;
 #endif
 
+/// Not every file system knows files without a name.
+int open_without_name(const std::string& folder)
+{
+  const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR);
+  if (file >= 0) return file;
+  std::string name = (std::filesystem::path(folder) / "chladni-XXXXXX").string();
+  const int named = mkostemp(name.data(), O_CLOEXEC);
+  if (named >= 0) unlink(name.c_str());
+  return named;
+}
+
 }  // namespace
+
+/// Takes the room now: where a disk is full, a page without room would end the process.
+bool GrowingMemory::has_room_on_disk(std::size_t n_bytes)
+{
+  if (file_ < 0) file_ = open_without_name(folder_);
+  return file_ >= 0 && std::cmp_less_equal(n_bytes, std::numeric_limits<off_t>::max()) &&
+         posix_fallocate(file_, 0, static_cast<off_t>(n_bytes)) == 0;
+}
+
+/// nullptr when there is none.
+void* GrowingMemory::larger(std::size_t n_bytes) const
+{
+  const bool is_file = !folder_.empty();
+  if (!is_file && !maps_memory) return std::realloc(values_, n_bytes);
+  const int kind = is_file ? MAP_SHARED : MAP_PRIVATE | MAP_ANONYMOUS;
+  void* memory = values_ == nullptr ? mmap(nullptr, n_bytes, PROT_READ | PROT_WRITE, kind, file_, 0)
+                                    : mremap(values_, n_bytes_, n_bytes, MREMAP_MAYMOVE);
+  return memory == MAP_FAILED ? nullptr : memory;
+}
 
 bool GrowingMemory::grow(std::size_t n)
 {
   const std::size_t n_bytes = std::max<std::size_t>(n, 1) * sizeof(double);
   if (n_bytes <= n_bytes_) return true;
-  void* memory = larger(values_, n_bytes_, n_bytes);
+  if (!folder_.empty() && !has_room_on_disk(n_bytes)) return false;
+  void* memory = larger(n_bytes);
   if (memory == nullptr) return false;
   values_ = static_cast<double*>(memory);
   n_bytes_ = n_bytes;
@@ -58,7 +65,10 @@ bool GrowingMemory::grow(std::size_t n)
 
 void GrowingMemory::release()
 {
-  if (values_ != nullptr) give_back(values_, n_bytes_);
+  const bool is_mapped = !folder_.empty() || maps_memory;
+  if (values_ != nullptr && is_mapped) munmap(values_, n_bytes_);
+  if (values_ != nullptr && !is_mapped) std::free(values_);
+  if (file_ >= 0) close(file_);
 }
 
 }  // namespace chladni::linear

@@ -1,31 +1,42 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <utility>
 
 namespace chladni::linear {
 
 /// An array of doubles that grows without a copy and takes memory only where it is touched,
 /// whatever the settings of malloc are. SuperLU_DIST, part of many builds of PETSc, forbids malloc
 /// to map large blocks; a block that grows is then copied and exists twice.
+///
+/// With a folder the array is a file there, without a name, so that it vanishes with the process.
+/// The system keeps in memory what fits, and writes and reads the rest.
 class GrowingMemory {
  public:
-  GrowingMemory() = default;
+  /// @param folder  of the file; empty: none
+  explicit GrowingMemory(std::string folder = {}) : folder_(std::move(folder)) {}
   ~GrowingMemory() { release(); }
-  GrowingMemory(GrowingMemory&& other) noexcept : values_(other.values_), n_bytes_(other.n_bytes_)
-  {
-    other.values_ = nullptr;
-    other.n_bytes_ = 0;
-  }
+  GrowingMemory(GrowingMemory&& other) noexcept
+      : folder_(std::move(other.folder_)),
+        file_(std::exchange(other.file_, -1)),
+        values_(std::exchange(other.values_, nullptr)),
+        n_bytes_(other.n_bytes_)
+  {}
   GrowingMemory& operator=(GrowingMemory&&) = delete;
 
   /// Makes room for n numbers; existing ones are kept.
-  /// @return false if there is not enough memory
+  /// @return false if there is not enough memory, or no room for the file
   [[nodiscard]] bool grow(std::size_t n);
   double* get() const { return values_; }
 
  private:
+  bool has_room_on_disk(std::size_t n_bytes);
+  void* larger(std::size_t n_bytes) const;
   void release();
 
+  std::string folder_;
+  int file_ = -1;
   double* values_ = nullptr;
   std::size_t n_bytes_ = 0;
 };

@@ -18,8 +18,6 @@ using Eigen::MatrixXd;
 
 namespace {
 
-constexpr PetscInt block_columns = 64;  // at a time: bounds the memory, enough for dgemm
-
 PetscInt n_columns_of(Mat X)
 {
   PetscInt n = 0;
@@ -137,6 +135,8 @@ class PartColumns {
 template <typename Visit>
 void for_products(std::span<const PartColumns> X, Mat A, const Visit& visit)
 {
+  constexpr PetscInt enough_for_dgemm = 64;
+  const PetscInt block_columns = columns_at_a_time(A, enough_for_dgemm);
   const SparseProduct product(A);
   for (std::size_t j = 0; j < X.size(); ++j) {
     for (PetscInt first = 0; first < X[j].size(); first += block_columns) {

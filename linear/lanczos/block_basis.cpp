@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/kernels/scratch.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/tall_products.hpp"
 #include "linear/machine_memory.hpp"
@@ -24,7 +25,8 @@ petsc::Matrix dense(MPI_Comm comm, PetscInt n_local, PetscInt n_global, PetscInt
 
 }  // namespace
 
-BlockBasis::BlockBasis(Mat M, PetscInt capacity) : M_(M), product_with_M_(M)
+BlockBasis::BlockBasis(Mat M, PetscInt capacity, std::string scratch)
+    : M_(M), product_with_M_(M), scratch_(std::move(scratch)), values_(scratch_)
 {
   petsc::check(MatGetLocalSize(M, &n_local_, nullptr));
   petsc::check(MatGetSize(M, &n_global_, nullptr));
@@ -34,18 +36,22 @@ BlockBasis::BlockBasis(Mat M, PetscInt capacity) : M_(M), product_with_M_(M)
 void BlockBasis::reserve(PetscInt capacity)
 {
   if (capacity <= capacity_) return;
-  const double untouched = double(n_local_) * (capacity - n_columns_);
-  require_memory(
-      untouched * sizeof(double) / bytes_in_MiB,
-      fmt::format("block Lanczos: a basis of {} vectors of {} DOFs", capacity, n_global_),
-      "ask for fewer modes, use more machines or -cms_lanczos_subspace", petsc::communicator(M_));
+  if (scratch_.empty()) {
+    const double untouched = double(n_local_) * (capacity - n_columns_);
+    require_memory(
+        untouched * sizeof(double) / bytes_in_MiB,
+        fmt::format("block Lanczos: a basis of {} vectors of {} DOFs", capacity, n_global_),
+        "ask for fewer modes, use more machines, -cms_scratch or -cms_lanczos_subspace",
+        petsc::communicator(M_));
+  }
   int refused = values_.grow(std::size_t(n_local_) * capacity) ? 0 : 1;
   MPI_Allreduce(MPI_IN_PLACE, &refused, 1, MPI_INT, MPI_MAX, petsc::communicator(M_));
   if (refused == 1) {
     throw Error(
-        fmt::format("block Lanczos: no memory for {} vectors of {} DOFs; ask for fewer "
-                    "modes, use more machines or -cms_lanczos_subspace",
-                    capacity, n_global_));
+        fmt::format("block Lanczos: no {} for {} vectors of {} DOFs; ask for fewer modes, use more "
+                    "machines, {} or -cms_lanczos_subspace",
+                    scratch_.empty() ? "memory" : "room in " + scratch_, capacity, n_global_,
+                    scratch_.empty() ? "-cms_scratch" : "another folder"));
   }
   capacity_ = capacity;
 }
@@ -53,6 +59,11 @@ void BlockBasis::reserve(PetscInt capacity)
 petsc::Matrix BlockBasis::new_block(Eigen::Index n_columns) const
 {
   return uninitialized_dense(M_, n_columns);
+}
+
+petsc::Matrix BlockBasis::new_vectors(Eigen::Index n_columns) const
+{
+  return large_dense(M_, static_cast<PetscInt>(n_columns), scratch_);
 }
 
 petsc::Matrix BlockBasis::columns(PetscInt first, PetscInt n_columns)
@@ -106,7 +117,7 @@ void BlockBasis::compress(const Eigen::MatrixXd& S, PetscInt n_first)
 
 petsc::Matrix BlockBasis::combine(const Eigen::MatrixXd& S) const
 {
-  petsc::Matrix X = new_block(S.cols());
+  petsc::Matrix X = new_vectors(S.cols());
   PetscScalar* values = nullptr;
   petsc::check(MatDenseGetArrayWrite(X, &values));
   add_product(1.0, values_.get(), n_local_, S, 0.0, values);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace chladni::linear {
 /// blocks.
 class BlockBasis {
  public:
-  BlockBasis(Mat M, PetscInt capacity);
+  /// @param scratch  folder for files that hold the vectors; empty: they are in memory
+  BlockBasis(Mat M, PetscInt capacity, std::string scratch = {});
 
   MPI_Comm comm() const { return petsc::communicator(M_); }
   PetscInt n_rows() const { return n_global_; }
@@ -29,6 +31,8 @@ class BlockBasis {
 
   /// An empty dense matrix with the rows of the basis.
   petsc::Matrix new_block(Eigen::Index n_columns) const;
+  /// The same for any number of columns: where the basis is.
+  petsc::Matrix new_vectors(Eigen::Index n_columns) const;
   /// Columns of the basis without a copy; valid until the next append or compress.
   petsc::Matrix columns(PetscInt first, PetscInt n_columns);
   /// M X.
@@ -91,7 +95,8 @@ class BlockBasis {
   petsc::Matrix newest_M_;  ///< M times the last block
   std::vector<petsc::Matrix> lost_;
   petsc::Matrix second_last_M_;  ///< M times the block before; empty after compress
-  GrowingMemory values_;         ///< [n_local x capacity] column-major, touched when used
+  std::string scratch_;
+  GrowingMemory values_;  ///< [n_local x capacity] column-major, touched when used
 };
 
 }  // namespace chladni::linear

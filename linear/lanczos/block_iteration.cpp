@@ -41,8 +41,9 @@ PetscInt n_columns_of(Mat X)
 
 }  // namespace
 
-BlockIteration::BlockIteration(Mat M, PetscInt block_size, PetscInt capacity)
-    : M_(M), block_size_(block_size), basis_(M, capacity)
+BlockIteration::BlockIteration(Mat M, PetscInt block_size, PetscInt capacity,
+                               const std::string& scratch)
+    : M_(M), block_size_(block_size), basis_(M, capacity, scratch)
 {}
 
 /// Random vectors that are orthonormal in M and orthogonal to the basis: fewer than n where the

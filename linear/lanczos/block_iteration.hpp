@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "linear/kernels/symmetric_eigen.hpp"
 #include "linear/lanczos/block_basis.hpp"
@@ -24,7 +25,8 @@ class BlockIteration {
   using Order = std::function<bool(double a, double b)>;
 
   /// @param capacity  largest number of basis vectors, the newest block included
-  BlockIteration(Mat M, PetscInt block_size, PetscInt capacity);
+  /// @param scratch   folder for files that hold them; empty: they are in memory
+  BlockIteration(Mat M, PetscInt block_size, PetscInt capacity, const std::string& scratch = {});
 
   /// Makes room for a larger basis.
   void reserve(PetscInt capacity) { basis_.reserve(capacity); }

@@ -60,7 +60,7 @@ BlockLanczos::BlockLanczos(BlockSolve solve, Mat M, const BlockLanczosOptions& o
         solve_(MQ, Y);
         n_solves_ += n_columns;
       }),
-      iteration_(M, options.block_size, capacity(0, n_rows_, options))
+      iteration_(M, options.block_size, capacity(0, n_rows_, options), options.scratch)
 {}
 
 /// The projected eigenproblem costs more than a step where the basis is large: it is not solved

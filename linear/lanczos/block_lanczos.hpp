@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "common/petsc.hpp"
@@ -22,6 +23,8 @@ struct BlockLanczosOptions {
   /// largest number of block solves
   PetscInt max_steps = 1000;
   double tolerance = 1e-9;  ///< residual of K^-1 M x = theta x relative to theta, in the M norm
+  /// folder for files that hold the basis and the vectors; empty: they are in memory
+  std::string scratch = {};
 };
 
 /// Eigenpairs of lowest lambda of K x = lambda M x, ascending, X^T M X = I.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/index_sets.hpp"
+#include "linear/kernels/scratch.hpp"
 
 namespace chladni::linear {
 
@@ -33,7 +34,7 @@ double expected_below(double lambda, const BlockLanczos& found)
 
 PartedLanczos::PartedLanczos(BlockSolve solve, PetscInt most, Mat M,
                              const BlockLanczosOptions& options)
-    : M_(M)
+    : M_(M), scratch_(options.scratch)
 {
   parts_.resize(1);
   parts_.front().n_rows = n_rows_of(M);
@@ -48,7 +49,7 @@ PartedLanczos::PartedLanczos(Mat factor, Mat M, const BlockLanczosOptions& optio
 
 PartedLanczos::PartedLanczos(std::vector<DecoupledPart> parts, Mat M,
                              const BlockLanczosOptions& options)
-    : M_(M)
+    : M_(M), scratch_(options.scratch)
 {
   for (DecoupledPart& given : parts) {
     Part part;
@@ -204,7 +205,7 @@ petsc::Matrix PartedLanczos::vectors(PetscInt first, PetscInt last) const
 {
   if (parts_.size() == 1 && parts_.front().M == nullptr)
     return parts_.front().lanczos->vectors(first, last);
-  petsc::Matrix X = uninitialized_dense(M_, last - first);
+  petsc::Matrix X = large_dense(M_, last - first, scratch_);
   petsc::check(MatZeroEntries(X));
   PetscInt ld = 0;
   petsc::check(MatDenseGetLDA(X, &ld));

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -76,6 +77,7 @@ class PartedLanczos {
   double expected_end(PetscInt n_pairs) const;
 
   Mat M_;
+  std::string scratch_;
   std::vector<Part> parts_;
   std::vector<Pair> pairs_;  ///< ascending
 };

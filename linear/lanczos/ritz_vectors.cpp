@@ -54,7 +54,7 @@ petsc::Matrix BlockIteration::applied_vectors(PetscInt first, PetscInt last,
 {
   constexpr PetscInt width = 32;
   const petsc::Matrix X = basis_.combine(ritz_coefficients(0, last));
-  petsc::Matrix purified = basis_.new_block(last - first);
+  petsc::Matrix purified = basis_.new_vectors(last - first);
   for (PetscInt at = first; at < last; at += width) {
     const PetscInt end = std::min(at + width, last);
     const ColumnRange target(purified, at - first, end - first);

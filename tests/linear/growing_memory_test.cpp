@@ -4,6 +4,7 @@
 #include <malloc.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -32,6 +33,24 @@ TEST(GrowingMemory, KeepsWhatIsThere)
   ASSERT_TRUE(memory.grow(8 * numbers_of_a_MiB));
   memory.get()[8 * numbers_of_a_MiB - 1] = 9.0;
   for (int i = 0; i < 3; ++i) EXPECT_EQ(memory.get()[i], i + 1.0);
+}
+
+TEST(GrowingMemory, IsAFileWhereAFolderIsGiven)
+{
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  GrowingMemory memory(folder.string());
+  ASSERT_TRUE(memory.grow(3));
+  for (int i = 0; i < 3; ++i) memory.get()[i] = i + 1.0;
+  ASSERT_TRUE(memory.grow(8 * numbers_of_a_MiB));
+  EXPECT_EQ(memory.get()[8 * numbers_of_a_MiB - 1], 0.0);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(memory.get()[i], i + 1.0);
+  EXPECT_FALSE(memory.grow(std::size_t(1) << 57));
+  EXPECT_EQ(memory.get()[0], 1.0);
+}
+
+TEST(GrowingMemory, SaysThatAFolderIsNotThere)
+{
+  EXPECT_FALSE(GrowingMemory("/no/such/folder").grow(1));
 }
 
 #ifndef CHLADNI_SANITIZED  // malloc is another one there, and ends the process

@@ -321,10 +321,11 @@ TEST(CMS, ObeysTheOptionsOfItsPrefix)
 
 TEST(CMS, IsNotTouchedByOptionsOfAnotherPrefix)
 {
-  for (const char* option : {"-cms_modes_solver by-magic", "-cms_lanczos_block_size 0",
-                             "-cms_lanczos_subspace -3", "-cms_lanczos_tolerance -1",
-                             "-cms_memory 1e-9", "-cms_pc_factor_mat_solver_type no_such_package",
-                             "-cms_pc_type jacobi", "-cms_sylvester_pc_type jacobi"}) {
+  for (const char* option :
+       {"-cms_modes_solver by-magic", "-cms_lanczos_block_size 0", "-cms_lanczos_subspace -3",
+        "-cms_lanczos_tolerance -1", "-cms_memory 1e-9", "-cms_scratch /no/such/folder",
+        "-cms_pc_factor_mat_solver_type no_such_package", "-cms_pc_type jacobi",
+        "-cms_sylvester_pc_type jacobi"}) {
     const Options options(option);
     for (const std::string prefix : {"left_", ""}) {
       Solver solver;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "reduce/held_masters.hpp"
@@ -84,6 +85,25 @@ TEST(Reduction, KeepsTheMatricesOnlyWhereTheyAreWanted)
     reduction(body, options, HeldMasters(), silent);
     EXPECT_EQ(body.K != nullptr, wanted);
     EXPECT_EQ(body.M != nullptr, wanted);
+  }
+}
+
+TEST(Reduction, IsTheSameFromScratchFiles)
+{
+  PhaseListener silent;
+  const std::filesystem::path temporary = std::filesystem::temp_directory_path();
+  for (const Method method : {Method::guyan, Method::craig_bampton, Method::mixed_interface}) {
+    std::vector<ReducedModel> models;
+    for (const std::filesystem::path& folder : {std::filesystem::path(), temporary}) {
+      const bool has_modes = method != Method::guyan;
+      const ReductionOptions options{
+          .basis = {.method = method, .modes = has_modes ? std::optional(4) : std::nullopt},
+          .solver = {.scratch = folder.string()}};
+      FactoredBody body = factored(chain_with_masters({0, n - 1}), options, silent);
+      models.push_back(reduction(body, options, HeldMasters({0, n - 1}, {0}), silent).model);
+    }
+    EXPECT_EQ(models[0].K, models[1].K);
+    EXPECT_EQ(models[0].M, models[1].M);
   }
 }
 

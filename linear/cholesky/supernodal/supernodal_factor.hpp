@@ -82,7 +82,7 @@ class SupernodalFactor : public CholeskyFactor {
   std::string description() const override;
 
  private:
-  static constexpr PetscInt most_columns = 64;
+  static constexpr PetscInt most_columns = 32;
 
   void number_trees();
   void number_slots();

@@ -1,0 +1,93 @@
+#include "linear/kernels/scratch.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "linear/kernels/dense_matrices.hpp"
+#include "linear/lanczos/block_lanczos.hpp"
+#include "matrices.hpp"
+
+namespace chladni::linear {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What `work` says to be wrong.
+template <typename Work>
+std::string complaint(const Work& work)
+{
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+TEST(Scratch, KeepsAMatrixInAFileWithoutAName)
+{
+  const fs::path folder = fs::temp_directory_path();
+  const petsc::Matrix A = testing::diagonal(6, [](PetscInt i) { return 1.0 + i; });
+  const petsc::Matrix X = large_dense(A, 3, folder.string());
+  petsc::check(MatZeroEntries(X));
+  add_sparse_product(A, Eigen::MatrixXd::Ones(6, 3), X);  // row i is 1 + i
+  const petsc::Matrix Y = large_dense(A, 3, "");
+  petsc::check(MatCopy(X, Y, SAME_NONZERO_PATTERN));
+  EXPECT_TRUE(inner_product(X, Y).isApprox(91.0 * Eigen::MatrixXd::Ones(3, 3)));
+  for (const auto& entry : fs::directory_iterator(folder))
+    EXPECT_EQ(entry.path().filename().string().find("chladni-"), std::string::npos);
+}
+
+TEST(Scratch, GivesBlockLanczosTheSameVectors)
+{
+  const int n = 60;
+  const petsc::Matrix M = testing::diagonal(n, [](PetscInt) { return 1.0; });
+  const BlockSolve solve = [&](Mat B, Mat X) {
+    petsc::check(MatCopy(B, X, SAME_NONZERO_PATTERN));
+    PetscInt first = 0, last = 0;
+    petsc::Vector inverse;
+    petsc::check(MatCreateVecs(M, inverse.put(), nullptr));
+    petsc::check(VecGetOwnershipRange(inverse, &first, &last));
+    for (PetscInt i = first; i < last; ++i)
+      petsc::check(VecSetValue(inverse, i, 1.0 / (1.0 + i), INSERT_VALUES));
+    petsc::check(VecAssemblyBegin(inverse));
+    petsc::check(VecAssemblyEnd(inverse));
+    petsc::check(MatDiagonalScale(X, inverse, nullptr));
+  };
+  const auto pairs = [&](const std::string& folder) {
+    BlockLanczos lanczos(solve, M, {.n_pairs = 0, .block_size = 4, .scratch = folder});
+    lanczos.converge(10);
+    return gram(lanczos.vectors(0, 10));
+  };
+  EXPECT_EQ(pairs(""), pairs(fs::temp_directory_path().string()));
+}
+
+TEST(Scratch, SaysThatAFolderIsNotThere)
+{
+  const petsc::Matrix A = testing::diagonal(3, [](PetscInt i) { return 1.0 + i; });
+  EXPECT_THAT(complaint([&] { require_scratch("/no/such/folder", PETSC_COMM_WORLD); }),
+              ::testing::HasSubstr("-cms_scratch /no/such/folder: files cannot be written there"));
+  EXPECT_THAT(complaint([&] { large_dense(A, 2, "/no/such/folder"); }),
+              ::testing::HasSubstr("no room"));
+}
+
+TEST(ColumnsAtATime, AreFewerWhereTheyAreLong)
+{
+  const auto n_for = [](PetscInt rows, PetscInt most) {
+    petsc::Matrix A;
+    petsc::check(MatCreateConstantDiagonal(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE,
+                                           rows * petsc::size(PETSC_COMM_WORLD),
+                                           rows * petsc::size(PETSC_COMM_WORLD), 1.0, A.put()));
+    return columns_at_a_time(A, most);
+  };
+  EXPECT_EQ(n_for(10, 32), 32);
+  EXPECT_EQ(n_for(1'000'000, 32), 16);
+  EXPECT_EQ(n_for(5'000'000, 32), 8);
+  EXPECT_EQ(n_for(1'000'000, 64), 32);
+  EXPECT_EQ(n_for(100'000'000, 64), 16);
+}
+
+}  // namespace
+}  // namespace chladni::linear
