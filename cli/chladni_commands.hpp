@@ -71,6 +71,7 @@ struct MacArguments {
 struct ChladniArguments {
   SceneArguments scene;
   bool trusts_mesh = false;  ///< the mesh file is the user's own and may run programs
+  std::string mesh_cache;    ///< folder in which meshes are kept; empty for none
   QualityChoice mesh;
   SoundChoice sound;
   ResponseChoice response;

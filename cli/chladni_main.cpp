@@ -163,6 +163,10 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
     app.get_subcommand(meshes)->add_flag(
         "--trust-mesh", arguments.trusts_mesh,
         "the mesh file is your own: a .geo may run programs and write files, without a time limit");
+    app.get_subcommand(meshes)
+        ->add_option("--mesh-cache", arguments.mesh_cache,
+                     "keeps meshes in this folder, for runs with the same mesh options and files")
+        ->type_name("FOLDER");
   }
   app.get_subcommand("mesh")->add_flag(
       "--quality", arguments.mesh.quality,

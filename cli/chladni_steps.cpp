@@ -25,6 +25,7 @@ scene::Scene read_scene_to_mesh(const ChladniArguments& arguments, scene::Purpos
 {
   scene::Scene scene = scene::read_meshed_scene(arguments.scene.scene, purpose);
   if (arguments.trusts_mesh) scene.mesh.trust = mesh::Trust::owner;
+  if (!arguments.mesh_cache.empty()) scene.mesh.cache = arguments.mesh_cache;
   cases::on_first_rank([&] { tell_notes(scene); });
   return scene;
 }

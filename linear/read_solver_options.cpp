@@ -1,11 +1,13 @@
 #include "linear/read_solver_options.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string_view>
 
 #include "common/petsc.hpp"
-#include "linear/kernels/scratch.hpp"
 
 namespace chladni::linear {
 
@@ -66,6 +68,18 @@ void refuse_nonsense(const Said& said, const std::string& prefix)
   }
 }
 
+/// On all ranks when files cannot be written there on one.
+void refuse_no_folder(const std::string& folder, const std::string& prefix, MPI_Comm comm)
+{
+  int refused = std::filesystem::is_directory(folder) && access(folder.c_str(), W_OK) == 0 ? 0 : 1;
+  MPI_Allreduce(MPI_IN_PLACE, &refused, 1, MPI_INT, MPI_MAX, comm);
+  if (refused == 0) return;
+  throw Error(fmt::format(
+      "-{}scratch {}: files cannot be written there; give an existing folder on a disk of each "
+      "machine",
+      prefix, folder));
+}
+
 }  // namespace
 
 SolverOptions read_solver_options(MPI_Comm comm, const SolverOptions& defaults)
@@ -84,7 +98,7 @@ SolverOptions read_solver_options(MPI_Comm comm, const SolverOptions& defaults)
                         .factor = defaults.factor,
                         .lanczos = said.lanczos,
                         .scratch = said.scratch.data()};
-  if (!options.scratch.empty()) require_scratch(options.scratch, comm);
+  if (!options.scratch.empty()) refuse_no_folder(options.scratch, defaults.petsc.prefix, comm);
   const auto place = std::ranges::find(solver_names, said.solver.data()) - solver_names.begin();
   options.lanczos.solver = solvers[place];
   options.factor.memory_MiB.reset();

@@ -159,6 +159,7 @@ struct MeshOptions {
   SectorSearch sector_search = SectorSearch::none;
   Coincident coincident_nodes = Coincident::refuse;
   std::optional<double> merge_tolerance = {};  ///< m
+  std::optional<std::string> cache = {};    ///< folder in which meshes are kept, of generators too
   Trust trust = Trust::stranger;            ///< never set by the scene, which comes with the mesh
   std::optional<double> most_seconds = {};  ///< s, time limit for reading a stranger's file
   std::optional<int> most_MiB = {};         ///< MiB, memory limit for reading a stranger's file

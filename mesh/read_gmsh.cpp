@@ -6,6 +6,7 @@
 #include "common/error.hpp"
 #include "mesh/coincident_nodes.hpp"
 #include "mesh/generators.hpp"
+#include "mesh/mesh_cache.hpp"
 #include "mesh/mesh_reader.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/rings.hpp"
@@ -51,8 +52,9 @@ Mesh read_gmsh(const MeshOptions& options)
 {
   const std::string& file = options.file.value();
   try {
+    Mesh made = kept_mesh(options, [&] { return read(options); });
     Mesh mesh =
-        treat_coincident_nodes(read(options), options.coincident_nodes, options.merge_tolerance);
+        treat_coincident_nodes(std::move(made), options.coincident_nodes, options.merge_tolerance);
     find_sector_edges(mesh, options.sectors);
     const std::string hint = hint_of_unit(mesh, options);
     if (!hint.empty()) mesh.notes.push_back(hint);
@@ -65,14 +67,23 @@ Mesh read_gmsh(const MeshOptions& options)
   }
 }
 
-Mesh draft(const MeshOptions& options)
+namespace {
+
+Mesh generated(const MeshOptions& options)
 {
   if (options.annulus) return annulus(*options.annulus);
   if (options.hat_disc) return hat_disc(*options.hat_disc);
   if (options.pad) return pad(*options.pad);
   if (options.rectangle) return rectangle(*options.rectangle);
-  if (options.beam) return beam(*options.beam);
-  return read_gmsh(options);
+  return beam(options.beam.value());
+}
+
+}  // namespace
+
+Mesh draft(const MeshOptions& options)
+{
+  if (options.file) return read_gmsh(options);
+  return kept_mesh(options, [&] { return generated(options); });
 }
 
 Mesh generate(const MeshOptions& options)

@@ -64,7 +64,6 @@ MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, Mat M_ss,
   column_MiB_ = sizeof(double) * double(n_local) / linear::bytes_in_MiB;
   K_MiB_ = own_MiB(body.K);
   M_MiB_ = own_MiB(body.M);
-  const bool keeps = needs_matrices(options, options.count.value_or(false));
   const linear::SolverOptions& solver = options.solver;
   if (solver.lanczos.solver == linear::ModeSolver::block_lanczos &&
       linear::will_solve_for_parts(solver.petsc)) {
@@ -79,7 +78,11 @@ MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, Mat M_ss,
       mass_of_parts_ = own_MiB(M);
     }
   }
-  let_go_MiB_ = keeps || lets_matrices_go_at_once(options) ? 0.0 : K_MiB_ + M_MiB_;
+  const bool may_let_go =
+      !needs_matrices(options, options.count.value_or(false)) && !lets_matrices_go_at_once(options);
+  // Whether a count that nobody asked for is made, and needs K and M, the factor will tell.
+  const double likely = options.count ? 1.0 : 0.5;
+  let_go_MiB_ = may_let_go ? likely * (K_MiB_ + M_MiB_) : 0.0;
   columns_at_a_time_ = linear::columns_at_a_time(K_ss);
   in_memory_ = solver.scratch.empty() ? 1.0 : 0.0;
 }
@@ -88,8 +91,9 @@ MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, Mat M_ss,
 /// product with its workspace, and a panel of the factor. Bounds keep the half solutions of all.
 double MemoryForecast::columns_in_estimates(double n_modes) const
 {
-  constexpr double arrays = 4.0, workspace = 32.0, most_pairs = 100.0;
+  constexpr double arrays = 4.0, widest_product = 16.0, most_pairs = 100.0;
   const double kept = options_.count.value_or(false) ? std::min(n_modes, most_pairs) : 0.0;
+  const double workspace = 2.0 * std::min(columns_at_a_time_, widest_product);
   return arrays * columns_at_a_time_ + workspace + kept;
 }
 
@@ -126,10 +130,11 @@ double MemoryForecast::beside_MiB(double n_modes) const
       later.columns_for_each_kept + largest_part_ * later.of_a_part_for_each_kept;
   const double later_MiB =
       column_MiB_ * (later.columns + for_each * kept) + M_MiB_ * later.matrices;
+  constexpr double panels_of_constraint_modes = 32.0;
+  const double least_work = std::max(columns_in_estimates(n_modes), panels_of_constraint_modes);
   return std::max(column_MiB_ * columns_in_search(n_modes) + mass_of_parts_ +
                       (options_.basis.tolerance ? trials_MiB(kept) : 0.0),
-                  column_MiB_ * kept_in_memory +
-                      std::max(column_MiB_ * columns_in_estimates(n_modes), later_MiB)) -
+                  column_MiB_ * kept_in_memory + std::max(column_MiB_ * least_work, later_MiB)) -
          let_go_MiB_;
 }
 

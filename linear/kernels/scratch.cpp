@@ -28,13 +28,6 @@ void keep_with(Mat dense, std::unique_ptr<GrowingMemory> memory)
   petsc::check(PetscContainerDestroy(&container));
 }
 
-void refuse_if_any(bool is_refused, const std::string& message, MPI_Comm comm)
-{
-  int refused = is_refused ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &refused, 1, MPI_INT, MPI_MAX, comm);
-  if (refused == 1) throw Error(message);
-}
-
 }  // namespace
 
 petsc::Matrix large_dense(Mat A, PetscInt n_columns, const std::string& folder)
@@ -44,28 +37,19 @@ petsc::Matrix large_dense(Mat A, PetscInt n_columns, const std::string& folder)
   petsc::check(MatGetLocalSize(A, &n_local, nullptr));
   petsc::check(MatGetSize(A, &n, nullptr));
   auto memory = std::make_unique<GrowingMemory>(folder);
-  const bool has_room = memory->grow(std::size_t(n_local) * n_columns);
-  const double MiB = sizeof(double) * double(n) * n_columns / bytes_in_MiB;
-  refuse_if_any(!has_room,
-                fmt::format("the folder {} for scratch files has no room for {:.0f} MiB; give "
-                            "another one by -cms_scratch",
-                            folder, MiB),
-                petsc::communicator(A));
+  int refused = memory->grow(std::size_t(n_local) * n_columns) ? 0 : 1;
+  MPI_Allreduce(MPI_IN_PLACE, &refused, 1, MPI_INT, MPI_MAX, petsc::communicator(A));
+  if (refused == 1) {
+    throw Error(
+        fmt::format("the folder {} for scratch files has no room for {:.0f} MiB; give "
+                    "another one by -cms_scratch",
+                    folder, sizeof(double) * double(n) * n_columns / bytes_in_MiB));
+  }
   petsc::Matrix dense;
   petsc::check(MatCreateDense(petsc::communicator(A), n_local, PETSC_DECIDE, n, n_columns,
                               memory->get(), dense.put()));
   keep_with(dense, std::move(memory));
   return dense;
-}
-
-void require_scratch(const std::string& folder, MPI_Comm comm)
-{
-  GrowingMemory memory(folder);
-  refuse_if_any(!memory.grow(1),
-                fmt::format("-cms_scratch {}: files cannot be written there; give an existing "
-                            "folder on a disk of each machine",
-                            folder),
-                comm);
 }
 
 }  // namespace chladni::linear

@@ -13,9 +13,4 @@ namespace chladni::linear {
 /// @throws chladni::Error on all ranks when one has no room for it.
 petsc::Matrix large_dense(Mat A, PetscInt n_columns, const std::string& folder);
 
-/// Checks that each rank can write files into a folder.
-/// @note   Collective on `comm`.
-/// @throws chladni::Error on all ranks when one cannot.
-void require_scratch(const std::string& folder, MPI_Comm comm);
-
 }  // namespace chladni::linear

@@ -23,7 +23,7 @@ ALLOWED = {
     "linear/cholesky/supernodal": ("common", "linear", "linear/kernels", "linear/cholesky"),
     "linear/lanczos": ("common", "linear", "linear/kernels"),
     "confinement": ("common",),
-    "mesh": ("common", "confinement", "mesh/decks", "mesh/exchange"),
+    "mesh": ("common", "confinement", "files", "mesh/decks", "mesh/exchange"),
     "mesh/decks": ("common", "mesh"),
     "mesh/exchange": ("common", "files", "mesh", "mesh/decks"),
     "plate": ("common", "mesh"),

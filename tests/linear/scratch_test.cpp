@@ -7,6 +7,7 @@
 
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/lanczos/block_lanczos.hpp"
+#include "linear/read_solver_options.hpp"
 #include "matrices.hpp"
 
 namespace chladni::linear {
@@ -67,8 +68,16 @@ TEST(Scratch, GivesBlockLanczosTheSameVectors)
 TEST(Scratch, SaysThatAFolderIsNotThere)
 {
   const petsc::Matrix A = testing::diagonal(3, [](PetscInt i) { return 1.0 + i; });
-  EXPECT_THAT(complaint([&] { require_scratch("/no/such/folder", PETSC_COMM_WORLD); }),
-              ::testing::HasSubstr("-cms_scratch /no/such/folder: files cannot be written there"));
+  const auto said = [](const char* folder) {
+    petsc::check(PetscOptionsSetValue(nullptr, "-scratch_test_scratch", folder));
+    const std::string answer = complaint(
+        [] { read_solver_options(PETSC_COMM_WORLD, {.petsc = {.prefix = "scratch_test_"}}); });
+    petsc::check(PetscOptionsClearValue(nullptr, "-scratch_test_scratch"));
+    return answer;
+  };
+  EXPECT_EQ(said("/tmp"), "nothing");
+  EXPECT_THAT(said("/no/such/folder"),
+              ::testing::HasSubstr("-scratch_test_scratch /no/such/folder: files cannot be"));
   EXPECT_THAT(complaint([&] { large_dense(A, 2, "/no/such/folder"); }),
               ::testing::HasSubstr("no room"));
 }

@@ -146,7 +146,7 @@ CholeskyFactor::Memory SupernodalFactor::forecast() const
   const double work = 2.0 * front + peak_of_left_overs(tree_, all);  // L and L D of the front
   const double gathered = n_gathered_ * (1.0 + 0.5);                 // with its index
   return {.factorization_MiB = (kept + work + gathered) / numbers_in_MiB,
-          .factor_MiB = (kept + double(n_slots_) * most_columns) / numbers_in_MiB,
+          .factor_MiB = (kept + double(n_slots_) * panel_width) / numbers_in_MiB,
           .entries_MiB = kept / numbers_in_MiB};
 }
 

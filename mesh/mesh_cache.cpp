@@ -1,0 +1,211 @@
+#include "mesh/mesh_cache.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <gmsh.h>
+#include <link.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+
+#include "common/error.hpp"
+#include "files/file_digest.hpp"
+#include "files/regular_file.hpp"
+#include "files/text_file.hpp"
+#include "files/xxh64.hpp"
+#include "mesh/decks/is_deck.hpp"
+#include "mesh/packed_mesh.hpp"
+
+namespace chladni::mesh {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string digest_of(std::string_view bytes)
+{
+  const std::span all(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  const std::size_t whole = all.size() / files::Xxh64::stripe * files::Xxh64::stripe;
+  files::Xxh64 digest;
+  digest.add(all.first(whole));
+  return fmt::format("{:016x}", digest.finish(all.subspan(whole)));
+}
+
+/// The program or library that this function is in: another one may make other meshes.
+std::string digest_of_program()
+{
+  Dl_info info{};
+  link_map* place = nullptr;
+  const bool is_known = dladdr1(reinterpret_cast<const void*>(&digest_of_program), &info,
+                                reinterpret_cast<void**>(&place), RTLD_DL_LINKMAP) != 0;
+  const bool is_library = is_known && place != nullptr && *place->l_name != '\0';
+  return files::file_digest(is_library ? place->l_name : "/proc/self/exe");
+}
+
+// The bindings name all members: who adds one is asked for it here.
+
+void pack_rings(Packer& packer, const std::vector<RingOptions>& rings)
+{
+  packer.each(rings, [](Packer& a, const RingOptions& ring) {
+    const auto& [name, radius, nodes, z] = ring;
+    a(name);
+    a(radius);
+    a(nodes);
+    a(z);
+  });
+}
+
+void pack_all(Packer& packer, const auto&... values)
+{
+  (packer(values), ...);
+}
+
+void pack_generator(Packer& packer, const AnnulusOptions& options)
+{
+  const auto& [inner, outer, size, order, rings, pattern, edge_row, sectors] = options;
+  pack_all(packer, inner, outer, size, order, pattern, edge_row, sectors);
+  pack_rings(packer, rings);
+}
+
+void pack_generator(Packer& packer, const HatDiscOptions& options)
+{
+  const auto& [inner, outer, wall, top, hub, height, foot, size, order, rings, pattern, edge_row,
+               bolts, sectors] = options;
+  pack_all(packer, inner, outer, wall, top, hub, height, foot, size, order, pattern, edge_row,
+           sectors);
+  pack_rings(packer, rings);
+  packer(bolts.has_value());
+  if (!bolts) return;
+  const auto& [count, circle, hole] = *bolts;
+  pack_all(packer, count, circle, hole);
+}
+
+void pack_generator(Packer& packer, const PadOptions& options)
+{
+  const auto& [inner, outer, angle, centre, size, order, pattern, edge_row] = options;
+  pack_all(packer, inner, outer, angle, centre, size, order, pattern, edge_row);
+}
+
+void pack_generator(Packer& packer, const RectangleOptions& options)
+{
+  const auto& [length, width, size, order, pattern, edge_row] = options;
+  pack_all(packer, length, width, size, order, pattern, edge_row);
+}
+
+void pack_generator(Packer& packer, const BeamMeshOptions& options)
+{
+  const auto& [start, end, elements, size, points, order] = options;
+  pack_all(packer, start, end, elements, size, order);
+  packer.each(points, [](Packer& a, const BeamPoint& point) {
+    const auto& [name, distance] = point;
+    pack_all(a, name, distance);
+  });
+}
+
+template <typename Options>
+void pack_generator(Packer& packer, const std::optional<Options>& options)
+{
+  packer(options.has_value());
+  if (options) pack_generator(packer, *options);
+}
+
+std::string text_of(const fs::path& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Why the mesh of a file must be made each time; empty if its bytes decide on it.
+std::string why_not_kept(const MeshOptions& options)
+{
+  const std::string& file = *options.file;
+  if (options.trust == Trust::owner) return "--trust-mesh lets it depend on anything";
+  if (is_deck(file)) return "a deck may include others";
+  if (fs::path(file).extension() != ".geo") return "";
+  static const std::regex other_files(
+      "Include|Merge|ShapeFromFile|System|GetEnv|GetString|Plugin|OnelabRun|Exists|FileExists");
+  return std::regex_search(text_of(file), other_files) ? "it may read other files" : "";
+}
+
+std::string key_of(const MeshOptions& options)
+{
+  Packer packer;
+  pack_all(packer, digest_of_program(), std::string(GMSH_API_VERSION));
+  pack_generator(packer, options.annulus);
+  pack_generator(packer, options.hat_disc);
+  pack_generator(packer, options.pad);
+  pack_generator(packer, options.rectangle);
+  pack_generator(packer, options.beam);
+  pack(packer, options);
+  if (options.file) packer(files::file_digest(*options.file));
+  return digest_of({packer.bytes().data(), packer.bytes().size()});
+}
+
+constexpr std::string_view magic = "chladni mesh 1\n";
+constexpr std::size_t digest_length = 16;
+
+/// Nothing if there is no such file, or it is not whole.
+std::optional<Mesh> kept(const fs::path& path)
+{
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return std::nullopt;
+  const std::string text = text_of(path);
+  if (!text.starts_with(magic) || text.size() < magic.size() + digest_length) return std::nullopt;
+  const std::string_view digest = std::string_view(text).substr(magic.size(), digest_length);
+  const std::string_view packed = std::string_view(text).substr(magic.size() + digest_length);
+  if (digest_of(packed) != digest) return std::nullopt;
+  try {
+    const std::vector<char> bytes(packed.begin(), packed.end());
+    Unpacker unpacker(bytes);
+    return unpack_mesh(unpacker);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+/// @return what is to be told
+std::string keep(const Mesh& mesh, const fs::path& path)
+{
+  Packer packer;
+  pack(packer, mesh);
+  const std::string_view packed(packer.bytes().data(), packer.bytes().size());
+  std::string text(magic);
+  text += digest_of(packed);
+  text += packed;
+  try {
+    fs::create_directories(path.parent_path());
+    files::write_text(path.string(), text);
+    return fmt::format("the mesh is kept in {}", path.string());
+  } catch (const std::exception& error) {
+    return fmt::format("the mesh could not be kept: {}", error.what());
+  }
+}
+
+}  // namespace
+
+Mesh kept_mesh(const MeshOptions& options, const std::function<Mesh()>& make)
+{
+  if (!options.cache) return make();
+  if (options.file) {
+    files::regular_file_size(*options.file);
+    const std::string reason = why_not_kept(options);
+    if (!reason.empty()) {
+      Mesh mesh = make();
+      mesh.notes.push_back(fmt::format("the mesh of {} is not kept: {}", *options.file, reason));
+      return mesh;
+    }
+  }
+  const fs::path path = fs::path(*options.cache) / (key_of(options) + ".mesh");
+  if (std::optional<Mesh> mesh = kept(path)) {
+    mesh->notes.push_back(fmt::format("the mesh is the one kept in {}", path.string()));
+    return *std::move(mesh);
+  }
+  Mesh mesh = make();
+  mesh.notes.push_back(keep(mesh, path));
+  return mesh;
+}
+
+}  // namespace chladni::mesh
