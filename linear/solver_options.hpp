@@ -49,7 +49,8 @@ struct SolverOptions {
   OptionSource petsc = {};
   FactorOptions factor = {};
   LanczosOptions lanczos = {};
-  /// folder for files that hold modes, constraint modes and the basis of block Lanczos; empty: they
+  /// folder for files that hold modes, constraint modes, the basis of block Lanczos and the blocks
+  /// of the slaves; empty: they
   /// are in memory
   std::string scratch = {};
   bool operator==(const SolverOptions&) const = default;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "linear/cholesky/condition_estimate.hpp"
+#include "linear/kernels/scratch.hpp"
 #include "linear/machine_memory.hpp"
 #include "reduce/basis.hpp"
 #include "reduce/certify.hpp"
@@ -60,6 +61,8 @@ FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener&
   DofPartition dofs =
       partition(body.K, own_masters(body.K, body.masters), body.may_lack_masters ? 0 : 1);
   Blocks K = split(body.K, dofs), M = split(body.M, dofs);
+  K.ss = linear::moved_to_scratch(std::move(K.ss), options.solver.scratch);
+  M.ss = linear::moved_to_scratch(std::move(M.ss), options.solver.scratch);
   phases.begin("factorization");
   const MemoryForecast memory(body, K.ss, M.ss, options);
   linear::SolverOptions solver = options.solver;

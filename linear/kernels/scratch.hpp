@@ -13,4 +13,12 @@ namespace chladni::linear {
 /// @throws chladni::Error on all ranks when one has no room for it.
 petsc::Matrix large_dense(Mat A, PetscInt n_columns, const std::string& folder);
 
+/// A sparse matrix whose arrays are moved into a file of each rank, where they take no memory while
+/// nobody multiplies by it.
+/// @param A       AIJ; any other type comes back as it is
+/// @param folder  for scratch files; empty: A comes back as it is
+/// @note   Collective.
+/// @throws chladni::Error on all ranks when one has no room for it.
+petsc::Matrix moved_to_scratch(petsc::Matrix A, const std::string& folder);
+
 }  // namespace chladni::linear

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "common/all_ranks.hpp"
+#include "common/petsc_attached.hpp"
 #include "plate/assembly/split_rows.hpp"
 
 namespace chladni::plate {
@@ -26,16 +27,8 @@ petsc::Matrix matrix_of(SplitRows split, PetscInt n_rows, MPI_Comm comm)
         comm, n_rows, n_rows, PETSC_DETERMINE, PETSC_DETERMINE, kept->start.data(),
         kept->column.get(), kept->value.data(), kept->other_start.data(), kept->other_column.data(),
         kept->other_value.data(), A.put()));
-  PetscContainer container = nullptr;
-  petsc::check(PetscContainerCreate(comm, &container));
-  petsc::check(PetscContainerSetPointer(container, kept.release()));
-  petsc::check(PetscContainerSetUserDestroy(container, [](void* rows) -> PetscErrorCode {
-    delete static_cast<SplitRows*>(rows);
-    return 0;
-  }));
-  petsc::check(PetscObjectCompose(reinterpret_cast<PetscObject>(static_cast<Mat>(A)),
-                                  "chladni_rows", reinterpret_cast<PetscObject>(container)));
-  petsc::check(PetscContainerDestroy(&container));  // the matrix keeps it
+  petsc::keep_with(reinterpret_cast<PetscObject>(static_cast<Mat>(A)), "chladni_rows",
+                   std::move(kept));
   return A;
 }
 

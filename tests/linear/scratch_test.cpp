@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/sparse_product.hpp"
 #include "linear/lanczos/block_lanczos.hpp"
 #include "linear/read_solver_options.hpp"
 #include "matrices.hpp"
@@ -39,6 +40,28 @@ TEST(Scratch, KeepsAMatrixInAFileWithoutAName)
   EXPECT_TRUE(inner_product(X, Y).isApprox(91.0 * Eigen::MatrixXd::Ones(3, 3)));
   for (const auto& entry : fs::directory_iterator(folder))
     EXPECT_EQ(entry.path().filename().string().find("chladni-"), std::string::npos);
+}
+
+TEST(Scratch, MultipliesByAMatrixThatWasMovedThere)
+{
+  const auto band = [] {
+    return testing::matrix(20, 5, [](PetscInt i) {
+      testing::Row row;
+      for (PetscInt j = std::max<PetscInt>(0, i - 2); j <= std::min<PetscInt>(19, i + 2); ++j)
+        row.push_back({j, 1.0 + double(i * j)});
+      return row;
+    });
+  };
+  const petsc::Matrix A = band();
+  const petsc::Matrix moved = moved_to_scratch(band(), fs::temp_directory_path().string());
+  PetscBool is_equal = PETSC_FALSE, is_known = PETSC_FALSE, is_symmetric = PETSC_FALSE;
+  petsc::check(MatEqual(A, moved, &is_equal));
+  EXPECT_TRUE(is_equal);
+  petsc::check(MatIsSymmetricKnown(moved, &is_known, &is_symmetric));
+  EXPECT_TRUE(is_known && is_symmetric);
+  const petsc::Matrix X = large_dense(A, 3, "");
+  petsc::check(MatSetRandom(X, nullptr));
+  EXPECT_EQ(gram(sparse_product(A, X)), gram(sparse_product(moved, X)));
 }
 
 TEST(Scratch, GivesBlockLanczosTheSameVectors)
