@@ -50,8 +50,7 @@ struct SolverOptions {
   FactorOptions factor = {};
   LanczosOptions lanczos = {};
   /// folder for files that hold modes, constraint modes, the basis of block Lanczos and the blocks
-  /// of the slaves; empty: they
-  /// are in memory
+  /// of the slaves; empty: they are in memory
   std::string scratch = {};
   bool operator==(const SolverOptions&) const = default;
 };

@@ -57,7 +57,7 @@ std::vector<int> block_of_rows(const std::vector<PetscInt>& starts, PetscInt n, 
   if (petsc::rank(comm) == 0) first = 0;
   std::vector<int> own;
   for (int b = 0; b < n_own; ++b) own.insert(own.end(), starts[b + 1] - starts[b], first + b);
-  std::vector<int> all = gather(own, MPI_INT, comm);
+  std::vector<int> all = gather(std::move(own), MPI_INT, comm);
   all.resize(n);
   MPI_Bcast(all.data(), n, MPI_INT, 0, comm);
   return all;
@@ -178,12 +178,13 @@ std::vector<int> elimination_order(Mat A)
   petsc::check(MatGetSize(A, &n, nullptr));
   const std::vector<PetscInt> starts = block_starts(A);
   const std::vector<int> block_of = block_of_rows(starts, n, comm);
-  const BlockGraph own = own_graph(A, starts, block_of);
-  const std::vector<int> degrees = gather(own.degrees, MPI_INT, comm);
-  const std::vector<int> neighbours = gather(own.neighbours, MPI_INT, comm);
+  BlockGraph own = own_graph(A, starts, block_of);
+  const std::vector<int> degrees = gather(std::move(own.degrees), MPI_INT, comm);
+  std::vector<int> neighbours = gather(std::move(own.neighbours), MPI_INT, comm);
   return on_all_ranks(comm, [&]() -> std::vector<int> {
     if (petsc::rank(comm) != 0) return {};
-    const Adjacency graph = symmetrized({.starts = offsets(degrees), .neighbours = neighbours});
+    const Adjacency graph =
+        symmetrized({.starts = offsets(degrees), .neighbours = std::move(neighbours)});
     std::vector<idx_t> sizes(degrees.size(), 0);
     for (const int block : block_of) ++sizes[block];
     return row_places(dissect_once(graph, sizes), block_of, sizes);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 namespace chladni::linear {
@@ -16,7 +17,15 @@ struct Adjacency {
 /// symmetric matrix is not symmetric if a zero is stored at (i, j) and not at (j, i), but METIS and
 /// the elimination tree require symmetry. Existing neighbours keep their order.
 /// @throws chladni::Error when there are more edges than METIS can count.
-Adjacency symmetrized(const Adjacency& graph);
+Adjacency symmetrized(Adjacency graph);
+
+/// A number whose bits all depend on all bits of z (the finaliser of splitmix64).
+inline std::uint64_t mixed(std::uint64_t z)
+{
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+  return z ^ (z >> 31);
+}
 
 /// True if each edge exists in both directions.
 bool is_symmetric(const Adjacency& graph);

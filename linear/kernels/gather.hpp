@@ -58,9 +58,10 @@ inline std::vector<int> counts_of_ranks(std::size_t own, MPI_Comm comm)
 /// @throws chladni::Error on all ranks, before anything is allocated, when there are more than a
 ///         call of MPI can count.
 template <typename T>
-std::vector<T> gather(const std::vector<T>& own, MPI_Datatype type, MPI_Comm comm)
+std::vector<T> gather(std::vector<T> own, MPI_Datatype type, MPI_Comm comm)
 {
   const std::vector<int> counts = counts_of_ranks(own.size(), comm);
+  if (counts.size() == 1) return own;
   const std::vector<int> at = offsets(counts);
   std::vector<T> all(petsc::rank(comm) == 0 ? at.back() : 0);
   MPI_Gatherv(own.data(), static_cast<int>(own.size()), type, all.data(), counts.data(), at.data(),
@@ -72,9 +73,10 @@ std::vector<T> gather(const std::vector<T>& own, MPI_Datatype type, MPI_Comm com
 /// @note   Collective on `comm`.
 /// @throws chladni::Error as `gather`.
 template <typename T>
-std::vector<T> gather_on_all(const std::vector<T>& own, MPI_Datatype type, MPI_Comm comm)
+std::vector<T> gather_on_all(std::vector<T> own, MPI_Datatype type, MPI_Comm comm)
 {
   const std::vector<int> counts = counts_of_ranks(own.size(), comm);
+  if (counts.size() == 1) return own;
   const std::vector<int> at = offsets(counts);
   std::vector<T> all(at.back());
   MPI_Allgatherv(own.data(), static_cast<int>(own.size()), type, all.data(), counts.data(),

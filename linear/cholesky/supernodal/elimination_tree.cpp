@@ -66,7 +66,8 @@ class Structures {
       : graph_(graph), order_(order), place_(inverse(order)), seen_by_(order.size(), -1)
   {}
 
-  /// Places below column j, ascending: its neighbours, and what its children hand on.
+  /// Places below column j, ascending: its neighbours, and what its children hand on. The longest
+  /// of these lists, which ascend, is most of it.
   std::vector<int> below(int j, const std::vector<const std::vector<int>*>& of_children)
   {
     std::vector<int> result;
@@ -75,10 +76,19 @@ class Structures {
       seen_by_[i] = j;
       result.push_back(i);
     };
+    const auto longest = std::ranges::max_element(
+        of_children, {}, [](const std::vector<int>* child) { return child->size(); });
+    if (longest != of_children.end()) {
+      result.reserve((*longest)->size());
+      std::ranges::for_each(**longest, add);
+    }
+    const auto n_sorted = std::ssize(result);
     for (int k = graph_.edges.starts[order_[j]]; k < graph_.edges.starts[order_[j] + 1]; ++k)
       add(place_[graph_.edges.neighbours[k]]);
-    for (const std::vector<int>* child : of_children) std::ranges::for_each(*child, add);
-    std::ranges::sort(result);
+    for (auto child = of_children.begin(); child != of_children.end(); ++child)
+      if (child != longest) std::ranges::for_each(**child, add);
+    std::sort(result.begin() + n_sorted, result.end());
+    std::inplace_merge(result.begin(), result.begin() + n_sorted, result.end());
     return result;
   }
 

@@ -1,20 +1,17 @@
 #include "linear/cholesky/supernodal/quotient_graph.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
+#include <utility>
 
 #include "linear/kernels/gather.hpp"
 
 namespace chladni::linear {
 
 namespace {
-
-std::uint64_t mixed(std::uint64_t z)  // splitmix64
-{
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-  return z ^ (z >> 31);
-}
 
 /// Of a set of columns, in any order; 128 bits, so that two sets do not meet by chance.
 struct Fingerprint {
@@ -50,24 +47,58 @@ void with_row(Mat A, PetscInt row, const Work& work)
   petsc::check(MatRestoreRow(A, row, &n, &columns, nullptr));
 }
 
+/// The vertices of the last rows with different columns: the next row has often the columns of one
+/// of them, which a comparison tells sooner than a fingerprint.
+class LastRows {
+ public:
+  /// -1 where no last row has these columns.
+  int vertex_of(std::span<const PetscInt> columns) const
+  {
+    for (const Known& known : last_)
+      if (std::ranges::equal(known.columns, columns)) return known.vertex;
+    return -1;
+  }
+  void add(std::span<const PetscInt> columns, int vertex)
+  {
+    Known& oldest = last_[next_++ % last_.size()];
+    oldest.columns.assign(columns.begin(), columns.end());
+    oldest.vertex = vertex;
+  }
+
+ private:
+  struct Known {
+    std::vector<PetscInt> columns;
+    int vertex = -1;
+  };
+  std::array<Known, 4> last_;  // bending and motion in the plane of two nodes
+  std::size_t next_ = 0;
+};
+
 OwnVertices own_vertices(Mat A)
 {
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(A, &first, &last));
   OwnVertices own;
   std::unordered_map<Fingerprint, int, Hash> known;
+  LastRows last_rows;
   for (PetscInt row = first; row < last; ++row) {
-    Fingerprint pattern;
     with_row(A, row, [&](const PetscInt* begin, const PetscInt* end) {
-      for (const PetscInt* column = begin; column != end; ++column) pattern.add(*column);
+      const std::span columns(begin, end);
+      int vertex = last_rows.vertex_of(columns);
+      if (vertex < 0) {
+        Fingerprint pattern;
+        for (const PetscInt column : columns) pattern.add(column);
+        const auto [place, is_new] = known.try_emplace(pattern, std::ssize(own.n_rows));
+        vertex = place->second;
+        last_rows.add(columns, vertex);
+        if (is_new) {
+          own.representative.push_back(row);
+          own.n_rows.push_back(0);
+        }
+      }
+      ++own.n_rows[vertex];
+      own.of_row.push_back(vertex);
     });
-    const auto [place, is_new] = known.try_emplace(pattern, std::ssize(own.n_rows));
-    if (is_new) {
-      own.representative.push_back(row);
-      own.n_rows.push_back(0);
-    }
-    ++own.n_rows[place->second];
-    own.of_row.push_back(place->second);
   }
   return own;
 }
@@ -83,8 +114,8 @@ QuotientGraph quotient_graph(Mat A)
   MPI_Exscan(&n_own, &before, 1, MPI_INT, MPI_SUM, comm);
   if (petsc::rank(comm) == 0) before = 0;
   for (int& vertex : own.of_row) vertex += before;
-  QuotientGraph graph{.vertex_of_row = gather_on_all(own.of_row, MPI_INT, comm),
-                      .n_rows = gather_on_all(own.n_rows, MPI_INT, comm),
+  QuotientGraph graph{.vertex_of_row = gather_on_all(std::move(own.of_row), MPI_INT, comm),
+                      .n_rows = gather_on_all(std::move(own.n_rows), MPI_INT, comm),
                       .edges = {}};
   std::vector<int> seen_by(graph.n_vertices(), -1), degrees, neighbours;
   for (int v = 0; v < n_own; ++v) {
@@ -101,9 +132,9 @@ QuotientGraph quotient_graph(Mat A)
     });
     degrees.push_back(static_cast<int>(neighbours.size() - n_before));
   }
-  degrees = gather_on_all(degrees, MPI_INT, comm);
-  graph.edges = symmetrized(
-      {.starts = offsets(degrees), .neighbours = gather_on_all(neighbours, MPI_INT, comm)});
+  degrees = gather_on_all(std::move(degrees), MPI_INT, comm);
+  graph.edges = symmetrized({.starts = offsets(degrees),
+                             .neighbours = gather_on_all(std::move(neighbours), MPI_INT, comm)});
   return graph;
 }
 
