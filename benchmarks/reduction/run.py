@@ -34,11 +34,12 @@ def scene(folder, size, order=3, modes=100):
     return path
 
 
-def reduce(folder, path, ranks=1, options=()):
-    """One reduction; returns the summary that the program writes, and its -log_view events."""
+def reduce(folder, path, ranks=1, options=(), cache=None):
+    """One reduction, with the mesh that `cache` keeps if given; returns the summary that the program writes, and its -log_view
+    events."""
     launcher = ["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
     command = [*launcher, str(CHLADNI), "reduce", str(path), "--output", str(folder),
-               "--json", str(folder / "summary.json"), "--", "-log_view", *options]
+               "--json", str(folder / "summary.json"), *(["--mesh-cache", str(cache)] if cache else []), "--", "-log_view", *options]
     done = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise SystemExit(f"{' '.join(command)}\n{done.stderr}")

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "common/all_ranks.hpp"
+#include "linear/cholesky/shared_dissection.hpp"
 #include "linear/kernels/adjacency.hpp"
 #include "linear/kernels/gather.hpp"
 
@@ -105,6 +106,14 @@ bool is_permutation_of_all(std::vector<idx_t> places)
   return true;
 }
 
+[[noreturn]] void refuse(std::ptrdiff_t n_blocks, std::ptrdiff_t n_edges)
+{
+  throw Error(
+      fmt::format("elimination_order: METIS finds no order of {} blocks with {} edges; take "
+                  "-cms_pc_factor_mat_solver_type mumps, which orders by itself",
+                  n_blocks, n_edges));
+}
+
 /// Place of each block in the elimination.
 std::vector<idx_t> dissect(const Adjacency& graph, std::vector<idx_t> weights)
 {
@@ -122,12 +131,8 @@ std::vector<idx_t> dissect(const Adjacency& graph, std::vector<idx_t> weights)
   options[METIS_OPTION_PFACTOR] = dense_degree;
   const int status = METIS_NodeND(&n, starts.data(), neighbours.data(), weights.data(),
                                   options.data(), order.data(), place.data());
-  if (status != METIS_OK || !is_permutation_of_all(place)) {
-    throw Error(fmt::format(
-        "elimination_order: METIS finds no order of {} blocks with {} edges (status {}); take "
-        "-cms_pc_factor_mat_solver_type mumps, which orders by itself",
-        n, neighbours.size(), status));
-  }
+  if (status != METIS_OK || !is_permutation_of_all(place))
+    refuse(std::ssize(place), std::ssize(neighbours));
   return place;
 }
 
@@ -155,9 +160,21 @@ std::vector<idx_t> dissect_once(const Adjacency& graph, const std::vector<idx_t>
   return place;
 }
 
+/// True for graphs that are worth the messages, and whose separators no block with many neighbours
+/// spoils.
+bool is_dissected_together(const std::vector<int>& degrees, MPI_Comm comm)
+{
+  constexpr std::size_t large = 10000;
+  if (petsc::size(comm) == 1 || degrees.size() < large) return false;
+  const double all = std::accumulate(degrees.begin(), degrees.end(), 0.0);
+  const double dense = dense_degree / 10.0 * all / double(degrees.size());
+  return std::ranges::max(degrees) <= dense;
+}
+
 /// From places of blocks to places of rows, from 1.
-std::vector<int> row_places(const std::vector<idx_t>& place, const std::vector<int>& block_of,
-                            const std::vector<idx_t>& sizes)
+template <typename Number>
+std::vector<int> row_places(const std::vector<Number>& place, const std::vector<int>& block_of,
+                            const std::vector<Number>& sizes)
 {
   std::vector<int> size_at(place.size() + 1, 0), next(place.size());
   for (std::size_t b = 0; b < place.size(); ++b) size_at[place[b] + 1] = sizes[b];
@@ -179,7 +196,20 @@ std::vector<int> elimination_order(Mat A)
   const std::vector<PetscInt> starts = block_starts(A);
   const std::vector<int> block_of = block_of_rows(starts, n, comm);
   BlockGraph own = own_graph(A, starts, block_of);
-  const std::vector<int> degrees = gather(std::move(own.degrees), MPI_INT, comm);
+  const std::vector<int> degrees = gather_on_all(std::move(own.degrees), MPI_INT, comm);
+  if (is_dissected_together(degrees, comm)) {
+    const Adjacency graph =
+        symmetrized({.starts = offsets(degrees),
+                     .neighbours = gather_on_all(std::move(own.neighbours), MPI_INT, comm)});
+    std::vector<int> sizes(degrees.size(), 0);
+    for (const int block : block_of) ++sizes[block];
+    const std::vector<int> place = shared_dissection(graph, sizes, comm);
+    return on_all_ranks(comm, [&]() -> std::vector<int> {
+      if (petsc::rank(comm) != 0) return {};
+      if (place.empty()) refuse(std::ssize(degrees), std::ssize(graph.neighbours));
+      return row_places(place, block_of, sizes);
+    });
+  }
   std::vector<int> neighbours = gather(std::move(own.neighbours), MPI_INT, comm);
   return on_all_ranks(comm, [&]() -> std::vector<int> {
     if (petsc::rank(comm) != 0) return {};

@@ -10,7 +10,8 @@ namespace chladni::linear {
 /// together get neighbouring numbers: those of a block of A's block size or, without one,
 /// consecutive rows of equal pattern. The graph for METIS is that of these blocks, 36 times smaller
 /// than the matrix of a shell. An entry on one side of the diagonal counts on both, since a pattern
-/// need not be symmetric where zeros are stored.
+/// need not be symmetric where zeros are stored. Several ranks dissect a large graph together
+/// (`shared_dissection`); the order then depends on their number.
 /// @param A  [n x n] AIJ, symmetric
 /// @return on rank 0 [n], the place of each row in the elimination, from 1 (MUMPS' PERM_IN); empty
 ///         on the other ranks
