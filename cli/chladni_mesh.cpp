@@ -53,11 +53,11 @@ Subject read_subject(const ChladniArguments& arguments)
                 "length_unit in [mesh] instead");
   }
   if (has_no_unit || scene::contains({".msh", ".geo", ".step", ".stp"}, extension)) {
-    const mesh::Trust trust = arguments.trusts_mesh ? mesh::Trust::owner : mesh::Trust::stranger;
-    return {
-        .name = std::filesystem::path(path).stem().string(),
-        .title = path,
-        .mesh = {.file = path, .length_unit = has_no_unit ? metres_of(unit) : 1.0, .trust = trust}};
+    Subject subject{.name = std::filesystem::path(path).stem().string(),
+                    .title = path,
+                    .mesh = {.file = path, .length_unit = has_no_unit ? metres_of(unit) : 1.0}};
+    apply_mesh_arguments(arguments, subject.mesh);
+    return subject;
   }
   const scene::Scene scene = read_scene_to_mesh(arguments, scene::Purpose::fe_model);
   return {.name = scene.name, .title = scene.title, .mesh = scene.mesh, .scene = scene};

@@ -21,11 +21,16 @@
 
 namespace chladni::cli {
 
+void apply_mesh_arguments(const ChladniArguments& arguments, mesh::MeshOptions& options)
+{
+  if (arguments.trusts_mesh) options.trust = mesh::Trust::owner;
+  if (!arguments.mesh_cache.empty()) options.cache = arguments.mesh_cache;
+}
+
 scene::Scene read_scene_to_mesh(const ChladniArguments& arguments, scene::Purpose purpose)
 {
   scene::Scene scene = scene::read_meshed_scene(arguments.scene.scene, purpose);
-  if (arguments.trusts_mesh) scene.mesh.trust = mesh::Trust::owner;
-  if (!arguments.mesh_cache.empty()) scene.mesh.cache = arguments.mesh_cache;
+  apply_mesh_arguments(arguments, scene.mesh);
   cases::on_first_rank([&] { tell_notes(scene); });
   return scene;
 }

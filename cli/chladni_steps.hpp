@@ -14,8 +14,11 @@
 /// The steps that the subcommands of `chladni` share.
 namespace chladni::cli {
 
-/// Reads the scene of the arguments; with `trusts_mesh` its mesh file may run programs. Prints the
-/// scene's notes.
+/// What the command line says of a mesh, and no scene can: whether its file may run programs, where
+/// meshes are kept.
+void apply_mesh_arguments(const ChladniArguments& arguments, mesh::MeshOptions& options);
+
+/// Reads the scene of the arguments, with `apply_mesh_arguments`. Prints the scene's notes.
 /// @throws chladni::Error as scene::read_meshed_scene.
 scene::Scene read_scene_to_mesh(const ChladniArguments& arguments,
                                 scene::Purpose purpose = scene::Purpose::everything);
