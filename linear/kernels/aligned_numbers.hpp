@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -24,8 +23,9 @@ inline AlignedNumbers aligned_numbers(std::size_t n)
   constexpr std::size_t line = 64;
   void* block = std::malloc(n * sizeof(double) + 2 * line);
   if (block == nullptr) throw std::bad_alloc();
-  const std::uintptr_t behind_pointer = reinterpret_cast<std::uintptr_t>(block) + sizeof(void*);
-  auto* numbers = reinterpret_cast<double*>((behind_pointer + line - 1) / line * line);
+  void* aligned = static_cast<void**>(block) + 1;
+  std::size_t room = n * sizeof(double) + line;
+  auto* numbers = static_cast<double*>(std::align(line, n * sizeof(double), aligned, room));
   reinterpret_cast<void**>(numbers)[-1] = block;
   return AlignedNumbers(numbers);
 }
