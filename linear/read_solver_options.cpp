@@ -71,7 +71,9 @@ void refuse_nonsense(const Said& said, const std::string& prefix)
 /// On all ranks when files cannot be written there on one.
 void refuse_no_folder(const std::string& folder, const std::string& prefix, MPI_Comm comm)
 {
-  int refused = std::filesystem::is_directory(folder) && access(folder.c_str(), W_OK) == 0 ? 0 : 1;
+  std::error_code ignored;
+  const bool is_folder = std::filesystem::is_directory(folder, ignored);
+  int refused = is_folder && access(folder.c_str(), W_OK) == 0 ? 0 : 1;
   MPI_Allreduce(MPI_IN_PLACE, &refused, 1, MPI_INT, MPI_MAX, comm);
   if (refused == 0) return;
   throw Error(fmt::format(

@@ -17,6 +17,7 @@
 #include "files/text_file.hpp"
 #include "files/xxh64.hpp"
 #include "mesh/decks/is_deck.hpp"
+#include "mesh/mesh_reader.hpp"
 #include "mesh/packed_mesh.hpp"
 
 namespace chladni::mesh {
@@ -34,15 +35,31 @@ std::string digest_of(std::string_view bytes)
   return fmt::format("{:016x}", digest.finish(all.subspan(whole)));
 }
 
-/// The program or library that this function is in: another one may make other meshes.
-std::string digest_of_program()
+/// The program or library that an address is in.
+std::string digest_of_home(const void* address)
 {
   Dl_info info{};
   link_map* place = nullptr;
-  const bool is_known = dladdr1(reinterpret_cast<const void*>(&digest_of_program), &info,
-                                reinterpret_cast<void**>(&place), RTLD_DL_LINKMAP) != 0;
+  const bool is_known =
+      dladdr1(address, &info, reinterpret_cast<void**>(&place), RTLD_DL_LINKMAP) != 0;
   const bool is_library = is_known && place != nullptr && *place->l_name != '\0';
   return files::file_digest(is_library ? place->l_name : "/proc/self/exe");
+}
+
+/// Of this program, of Gmsh, and of the program that reads files: others may make other meshes.
+/// Empty if one cannot be read.
+std::string digests_of_programs(const MeshOptions& options)
+{
+  void* gmsh = dlsym(RTLD_DEFAULT, "gmshInitialize");  // of its interface to C
+  std::string all;
+  std::vector<std::string> digests{digest_of_home(reinterpret_cast<const void*>(&digest_of_home)),
+                                   gmsh == nullptr ? std::string() : digest_of_home(gmsh)};
+  if (options.file) digests.push_back(files::file_digest(reader_program()));
+  for (const std::string& digest : digests) {
+    if (digest.empty()) return "";
+    all += digest;
+  }
+  return all;
 }
 
 // The bindings name all members: who adds one is asked for it here.
@@ -126,14 +143,15 @@ std::string why_not_kept(const MeshOptions& options)
   if (is_deck(file)) return "a deck may include others";
   if (fs::path(file).extension() != ".geo") return "";
   static const std::regex other_files(
-      "Include|Merge|ShapeFromFile|System|GetEnv|GetString|Plugin|OnelabRun|Exists|FileExists");
+      "Include|Merge|File|System|GetEnv|GetString|Plugin|OnelabRun|Exists");
   return std::regex_search(text_of(file), other_files) ? "it may read other files" : "";
 }
 
-std::string key_of(const MeshOptions& options)
+/// @param programs  digests of all that makes meshes
+std::string key_of(const MeshOptions& options, const std::string& programs)
 {
   Packer packer;
-  pack_all(packer, digest_of_program(), std::string(GMSH_API_VERSION));
+  pack_all(packer, programs, std::string(GMSH_API_VERSION));
   pack_generator(packer, options.annulus);
   pack_generator(packer, options.hat_disc);
   pack_generator(packer, options.pad);
@@ -198,13 +216,22 @@ Mesh kept_mesh(const MeshOptions& options, const std::function<Mesh()>& make)
       return mesh;
     }
   }
-  const fs::path path = fs::path(*options.cache) / (key_of(options) + ".mesh");
+  const std::string programs = digests_of_programs(options);
+  if (programs.empty()) {
+    Mesh mesh = make();
+    mesh.notes.emplace_back("the mesh is not kept: the programs that make it cannot be read");
+    return mesh;
+  }
+  const std::string key = key_of(options, programs);
+  const fs::path path = fs::path(*options.cache) / (key + ".mesh");
   if (std::optional<Mesh> mesh = kept(path)) {
     mesh->notes.push_back(fmt::format("the mesh is the one kept in {}", path.string()));
     return *std::move(mesh);
   }
   Mesh mesh = make();
-  mesh.notes.push_back(keep(mesh, path));
+  const bool is_as_before = key_of(options, programs) == key;
+  mesh.notes.push_back(is_as_before ? keep(mesh, path)
+                                    : "the mesh is not kept: its file was changed meanwhile");
   return mesh;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "mesh/mesh.hpp"
 #include "mesh/mesh_options.hpp"
@@ -18,6 +19,11 @@ Mesh read_here(const MeshOptions& options, const std::function<void()>& before_r
 /// ended when it takes too much time or memory.
 /// @throws chladni::Error as `read_here`, and when that process did not finish.
 Mesh read_confined(const MeshOptions& options);
+
+/// The path of chladni-mesh-reader: beside this program as both are built and installed, or where
+/// CHLADNI_MESH_READER says.
+/// @throws chladni::Error when there is none.
+std::string reader_program();
 
 /// What chladni-mesh-reader is asked for: the mesh, or the other contents of a deck.
 enum class Wanted { mesh, declarations };

@@ -28,22 +28,6 @@ using confinement::Outcome;
 
 constexpr std::uint64_t MiB = 1 << 20;
 
-/// The program beside this one as both are built and installed, or where the user says.
-fs::path reader_program()
-{
-  if (const char* said = std::getenv("CHLADNI_MESH_READER")) return said;
-  const fs::path below = fs::path("chladni") / "chladni-mesh-reader";
-  std::error_code ignored;
-  const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const fs::path& folder : {here / "../libexec", fs::path(CHLADNI_LIBEXEC_FOLDER)})
-    if (fs::exists(folder / below, ignored)) return folder / below;
-  throw Error(fmt::format(
-      "the program chladni-mesh-reader, in which Gmsh reads mesh files, is neither in {} "
-      "nor in {}; install it, or set CHLADNI_MESH_READER to its path",
-      (here / "../libexec/chladni").lexically_normal().string(),
-      (CHLADNI_LIBEXEC_FOLDER / fs::path("chladni")).string()));
-}
-
 /// What holds a mesh takes what its size tells; what a .geo or .step makes, nobody knows.
 confinement::Limits limits_of(const MeshOptions& options)
 {
@@ -126,6 +110,21 @@ auto answer_of(const MeshOptions& options, Wanted wanted, auto&& ask, auto&& unp
 }
 
 }  // namespace
+
+std::string reader_program()
+{
+  if (const char* said = std::getenv("CHLADNI_MESH_READER")) return said;
+  const fs::path below = fs::path("chladni") / "chladni-mesh-reader";
+  std::error_code ignored;
+  const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  for (const fs::path& folder : {here / "../libexec", fs::path(CHLADNI_LIBEXEC_FOLDER)})
+    if (fs::exists(folder / below, ignored)) return (folder / below).string();
+  throw Error(fmt::format(
+      "the program chladni-mesh-reader, in which Gmsh reads mesh files, is neither in {} "
+      "nor in {}; install it, or set CHLADNI_MESH_READER to its path",
+      (here / "../libexec/chladni").lexically_normal().string(),
+      (CHLADNI_LIBEXEC_FOLDER / fs::path("chladni")).string()));
+}
 
 Mesh read_confined(const MeshOptions& options)
 {

@@ -29,6 +29,16 @@ struct PartGraph {
   idx_t n_vertices() const { return static_cast<idx_t>(weights.size()); }
 };
 
+bool has_each_place_once(const std::vector<int>& places)
+{
+  std::vector<char> is_taken(places.size(), 0);
+  for (const int place : places) {
+    if (place < 0 || place >= std::ssize(places) || is_taken[std::size_t(place)] != 0) return false;
+    is_taken[std::size_t(place)] = 1;
+  }
+  return true;
+}
+
 class SharedDissection {
  public:
   SharedDissection(const Adjacency& graph, const std::vector<int>& weights)
@@ -145,7 +155,7 @@ std::vector<int> shared_dissection(const Adjacency& graph, const std::vector<int
   std::vector<int>& places = dissection.places();
   std::vector<int> sum(petsc::rank(comm) == 0 ? places.size() : 0);
   MPI_Reduce(places.data(), sum.data(), static_cast<int>(places.size()), MPI_INT, MPI_SUM, 0, comm);
-  return sum;
+  return has_each_place_once(sum) ? sum : std::vector<int>();
 }
 
 }  // namespace chladni::linear

@@ -21,7 +21,7 @@ class GrowingMemory {
       : folder_(std::move(other.folder_)),
         file_(std::exchange(other.file_, -1)),
         values_(std::exchange(other.values_, nullptr)),
-        n_bytes_(other.n_bytes_)
+        n_bytes_(std::exchange(other.n_bytes_, 0))
   {}
   GrowingMemory& operator=(GrowingMemory&&) = delete;
 

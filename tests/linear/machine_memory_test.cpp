@@ -68,10 +68,10 @@ TEST_F(ControlGroupFiles, OfAContainerAreThoseOfTheRoot)
   EXPECT_DOUBLE_EQ(free_MiB(), 0.0);
 }
 
-TEST(FreeMemory, IsNoMoreThanTheControlGroupLeaves)
+TEST(FreeMemory, IsThatOfThisMachine)
 {
-  EXPECT_LE(free_MiB(), free_MiB_of_control_group() + 1.0);
   EXPECT_GT(free_MiB(), 0.0);
+  EXPECT_LT(free_MiB(), 1e9);
 }
 
 }  // namespace

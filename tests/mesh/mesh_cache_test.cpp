@@ -107,6 +107,9 @@ TEST_F(MeshCache, KeepsNothingThatOtherFilesDecideOn)
     testing::expect_words(kept_mesh(options, [] { return Mesh{}; }).notes.back(),
                           {"a.geo", "is not kept"});
   }
+  options.trust = Trust::stranger;
+  options.file = write("c.geo", square_geo + "Field[1] = Structured; Field[1].FileName = \"b\";\n");
+  testing::expect_words(kept_mesh(options, [] { return Mesh{}; }).notes.back(), {"is not kept"});
   EXPECT_TRUE(files().empty());
 }
 
