@@ -67,7 +67,8 @@ struct FactoredBody {
   MPI_Comm comm() const { return petsc::communicator(K_ss.matrix()); }
 };
 
-/// Divides the DOFs into masters and slaves and factors K_ss.
+/// Divides the DOFs into masters and slaves and factors K_ss. K and M are freed at once where these
+/// options need them no more; later calls must not ask for more than these did.
 /// @note   Collective on the communicator of K, as are all functions of this header.
 /// @throws FreeMotion on all ranks when a part of the body can move with all masters held.
 /// @throws chladni::Error on all ranks when the masters are no valid partition, or the factor and

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
@@ -27,6 +28,17 @@ std::string complaint(const Work& work)
     return error.what();
   }
   return "nothing";
+}
+
+/// Files without a name that this process has mapped.
+std::size_t n_scratch_maps()
+{
+  std::ifstream maps("/proc/self/maps");
+  const std::string folder = fs::temp_directory_path().string();
+  std::size_t n = 0;
+  for (std::string line; std::getline(maps, line);)
+    n += line.find(folder) != std::string::npos && line.ends_with("(deleted)") ? 1 : 0;
+  return n;
 }
 
 TEST(Scratch, KeepsAMatrixInAFileWithoutAName)
@@ -56,7 +68,9 @@ TEST(Scratch, MultipliesByAMatrixThatWasMovedThere)
     });
   };
   const petsc::Matrix A = band();
+  const std::size_t n_before = n_scratch_maps();
   const petsc::Matrix moved = moved_to_scratch(band(), fs::temp_directory_path().string());
+  EXPECT_EQ(n_scratch_maps(), n_before + 1);
   PetscBool is_equal = PETSC_FALSE, is_known = PETSC_FALSE, is_symmetric = PETSC_FALSE;
   petsc::check(MatEqual(A, moved, &is_equal));
   EXPECT_TRUE(is_equal);

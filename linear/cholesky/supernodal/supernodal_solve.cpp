@@ -276,7 +276,7 @@ void SupernodalFactor::solve(const SparseColumns& on_first_rank, LocalColumns X)
     report_progress(double(i + 1) / B.n_columns);
     block.clear();
   }
-  panel_values_.reset();  // later solutions are of fewer columns
+  panel_values_.reset();  // later solutions touch fewer panels
 }
 
 void SupernodalFactor::solve_block(const SparseColumns& B, const std::vector<int>& columns,
