@@ -23,4 +23,15 @@ void keep_with(PetscObject object, const char* name, std::unique_ptr<T> kept)
   check(PetscContainerDestroy(&container));  // the object keeps it
 }
 
+/// What `keep_with` keeps by a name, or null.
+template <typename T>
+T* kept_with(PetscObject object, const char* name)
+{
+  PetscContainer container = nullptr;
+  void* kept = nullptr;
+  check(PetscObjectQuery(object, name, reinterpret_cast<PetscObject*>(&container)));
+  if (container != nullptr) check(PetscContainerGetPointer(container, &kept));
+  return static_cast<T*>(kept);
+}
+
 }  // namespace chladni::petsc

@@ -11,13 +11,31 @@ using Eigen::MatrixXd;
 
 namespace {
 
-/// The place of a DOF among ascending ones.
-std::optional<PetscInt> place(const std::vector<PetscInt>& dofs, PetscInt dof)
-{
-  const auto found = std::ranges::lower_bound(dofs, dof);
-  if (found == dofs.end() || *found != dof) return std::nullopt;
-  return static_cast<PetscInt>(found - dofs.begin());
-}
+/// The places of some DOFs among those of a set on this rank, in any order.
+class Places {
+ public:
+  explicit Places(IS set)
+  {
+    const std::vector<PetscInt> dofs = petsc::own_indices(set);
+    if (dofs.empty()) return;
+    const auto [first, last] = std::ranges::minmax(dofs);
+    first_ = first;
+    place_.resize(std::size_t(last - first) + 1, none);
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      place_[std::size_t(dofs[i] - first)] = static_cast<PetscInt>(i);
+  }
+  std::optional<PetscInt> operator()(PetscInt dof) const
+  {
+    if (dof < first_ || dof - first_ >= std::ssize(place_)) return std::nullopt;
+    const PetscInt place = place_[std::size_t(dof - first_)];
+    return place == none ? std::nullopt : std::optional(place);
+  }
+
+ private:
+  static constexpr PetscInt none = -1;
+  PetscInt first_ = 0;
+  std::vector<PetscInt> place_;
+};
 
 }  // namespace
 
@@ -53,15 +71,14 @@ MatrixXd basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of,
   const linear::LocalRows Psi(Q_CB.Psi);
   const std::optional<linear::LocalRows> Phi =
       Q_CB.modes ? std::optional<linear::LocalRows>(std::in_place, Q_CB.modes->Phi) : std::nullopt;
-  const std::vector<PetscInt> masters = petsc::own_indices(rows_of.masters);
-  const std::vector<PetscInt> slaves = petsc::own_indices(rows_of.slaves);
+  const Places masters(rows_of.masters), slaves(rows_of.slaves);
   const PetscInt first_master = petsc::indices_before(rows_of.masters);
   const PetscInt n_m = Psi.n_cols();
   MatrixXd rows = MatrixXd::Zero(std::ssize(dofs), n_m + Q_CB.n_modes());
   std::vector<std::pair<PetscInt, PetscInt>> own;  // row here and row among this rank's slaves
   for (PetscInt i = 0; i < rows.rows(); ++i) {
-    if (const auto m = place(masters, dofs[i])) rows(i, first_master + *m) = 1.0;
-    if (const auto s = place(slaves, dofs[i])) own.emplace_back(i, *s);
+    if (const auto m = masters(dofs[i])) rows(i, first_master + *m) = 1.0;
+    if (const auto s = slaves(dofs[i])) own.emplace_back(i, *s);
   }
   for (PetscInt j = 0; j < n_m; ++j)
     for (const auto& [i, s] : own) rows(i, j) = Psi(s, j);

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "common/eigen_every.hpp"
 #include "linear/cholesky/inverse_form.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
@@ -150,29 +151,64 @@ class BlockResiduals {
   petsc::Matrix motion_, product_;
 };
 
-ReducedPairs slice(const ReducedPairs& pairs, PetscInt first, PetscInt last)
+using Numbers = std::vector<PetscInt>;
+
+ReducedPairs some_of(const ReducedPairs& pairs, const Numbers& numbers)
 {
-  return {.X = pairs.X.middleCols(first, last - first),
-          .lambda = {pairs.lambda.begin() + first, pairs.lambda.begin() + last}};
+  ReducedPairs some{.X = pairs.X(every, numbers), .lambda = {}};
+  for (const PetscInt k : numbers) some.lambda.push_back(pairs.lambda[std::size_t(k)]);
+  return some;
+}
+
+/// Whether two motions have a coordinate in common that moves in both.
+bool overlap(const Eigen::VectorXd& a, const Eigen::VectorXd& b)
+{
+  return (a.array() != 0.0 && b.array() != 0.0).any();
+}
+
+/// Pairs in blocks of at most `most`; those that move different parts of the body, as bending and
+/// motion in the plane do, in different ones, which are worked on without the rest.
+std::vector<Numbers> blocks_of(const ReducedPairs& pairs, PetscInt most)
+{
+  struct Group {
+    Eigen::VectorXd moved;
+    std::vector<Numbers> blocks;
+  };
+  std::vector<Group> groups;
+  for (PetscInt k = 0; k < pairs.X.cols(); ++k) {
+    const Eigen::VectorXd x = pairs.X.col(k).cwiseAbs();
+    const auto alike =
+        std::ranges::find_if(groups, [&](const Group& g) { return overlap(g.moved, x); });
+    if (alike == groups.end()) {
+      groups.push_back({.moved = x, .blocks = {{k}}});
+      continue;
+    }
+    alike->moved += x;
+    if (std::ssize(alike->blocks.back()) == most) alike->blocks.emplace_back();
+    alike->blocks.back().push_back(k);
+  }
+  std::vector<Numbers> blocks;
+  for (const Group& group : groups)
+    blocks.insert(blocks.end(), group.blocks.begin(), group.blocks.end());
+  return blocks;
 }
 
 /// r_i^T K_ss^-1 r_j / sqrt(lambda_i lambda_j) of the newest block with itself and all before.
 void add_inner_products(const std::vector<linear::InverseForm>& forms,
-                        const std::vector<double>& lambda, MatrixXd& H)
+                        std::span<const Numbers> numbers, const std::vector<double>& lambda,
+                        MatrixXd& H)
 {
   const Mat right = forms.back().right();
-  PetscInt newest = 0, first = 0;
-  for (const linear::InverseForm& form : std::span(forms).first(forms.size() - 1))
-    newest += linear::LocalRows(form.left).n_cols();
-  for (const linear::InverseForm& form : forms) {
-    const MatrixXd products = linear::inner_product(form.left, right);
-    for (PetscInt j = 0; j < products.cols(); ++j) {
-      for (PetscInt i = 0; i < products.rows(); ++i) {
-        const double scale = std::sqrt(lambda[first + i] * lambda[newest + j]);
-        H(first + i, newest + j) = H(newest + j, first + i) = products(i, j) / scale;
+  const auto scale = [&](PetscInt i) { return 1.0 / std::sqrt(lambda[std::size_t(i)]); };
+  const Numbers& newest = numbers[forms.size() - 1];
+  for (std::size_t b = 0; b < forms.size(); ++b) {
+    const MatrixXd products = linear::inner_product(forms[b].left, right);
+    for (Eigen::Index j = 0; j < products.cols(); ++j) {
+      for (Eigen::Index i = 0; i < products.rows(); ++i) {
+        const PetscInt row = numbers[b][std::size_t(i)], column = newest[std::size_t(j)];
+        H(row, column) = H(column, row) = products(i, j) * scale(row) * scale(column);
       }
     }
-    first += static_cast<PetscInt>(products.rows());
   }
 }
 
@@ -181,29 +217,36 @@ void add_inner_products(const std::vector<linear::InverseForm>& forms,
 ErrorEstimates error_estimates(const Condensation& system, const ReducedPairs& pairs,
                                Purpose purpose)
 {
-  const PetscInt most = linear::columns_at_a_time(system.K_ss.matrix());
   constexpr double eps = std::numeric_limits<double>::epsilon();
   const auto n_pairs = static_cast<PetscInt>(pairs.lambda.size());
-  ErrorEstimates estimates;
+  const PetscInt most =
+      std::min(linear::columns_at_a_time(system.K_ss.matrix()), std::max<PetscInt>(n_pairs, 1));
+  ErrorEstimates estimates{.eta2 = std::vector(std::size_t(n_pairs), 0.0),
+                           .rounding = std::vector(std::size_t(n_pairs), 0.0),
+                           .inner_products = {}};
   const bool with_inner_products = purpose == Purpose::bounds;
   if (with_inner_products) estimates.inner_products = MatrixXd::Zero(n_pairs, n_pairs);
   std::vector<linear::InverseForm> forms;  // of K_ss^-1, on r of the pairs so far
-  BlockResiduals residuals(system, std::min(most, n_pairs));
-  for (PetscInt first = 0; first < n_pairs; first += most) {
-    linear::report_progress(double(first) / n_pairs);
-    const ReducedPairs some = slice(pairs, first, std::min(first + most, n_pairs));
+  BlockResiduals residuals(system, most);
+  const std::vector<Numbers> blocks = blocks_of(pairs, most);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    linear::report_progress(double(b) / double(blocks.size()));
+    const ReducedPairs some = some_of(pairs, blocks[b]);
     if (!with_inner_products) forms.clear();
     Residuals of = residuals.of(some);
     forms.push_back(linear::inverse_form(system.K_ss.factor(), std::move(of.r_s)));
     const std::vector<double> squares =
         linear::column_products(forms.back().left, forms.back().right());
     for (std::size_t i = 0; i < squares.size(); ++i) {
-      estimates.eta2.push_back(std::max(0.0, squares[i]) / some.lambda[i]);
+      const auto k = static_cast<std::size_t>(blocks[b][i]);
+      estimates.eta2[k] = std::max(0.0, squares[i]) / some.lambda[i];
       const double terms = of.energy_of_diagonal[i] / some.lambda[i] + of.inertia_of_diagonal[i];
-      estimates.rounding.push_back(4.0 * eps * terms +
-                                   2.0 * std::abs(some.lambda[i] / of.rayleigh[i] - 1.0));
+      estimates.rounding[k] =
+          4.0 * eps * terms + 2.0 * std::abs(some.lambda[i] / of.rayleigh[i] - 1.0);
     }
-    if (with_inner_products) add_inner_products(forms, pairs.lambda, estimates.inner_products);
+    if (with_inner_products)
+      add_inner_products(forms, std::span(blocks).first(b + 1), pairs.lambda,
+                         estimates.inner_products);
   }
   return estimates;
 }

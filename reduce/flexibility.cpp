@@ -168,11 +168,11 @@ Members members(const std::vector<PetscInt>& rows, PetscInt first_row, IS among)
 {
   const std::vector<PetscInt> all = petsc::own_indices(among);
   Members some;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto found = std::ranges::lower_bound(all, rows[i]);
-    if (found == all.end() || *found != rows[i]) continue;
-    some.places.push_back(static_cast<PetscInt>(found - all.begin()));
-    some.in_part.push_back(first_row + static_cast<PetscInt>(i));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto found = std::ranges::lower_bound(rows, all[i]);
+    if (found == rows.end() || *found != all[i]) continue;
+    some.places.push_back(static_cast<PetscInt>(i));
+    some.in_part.push_back(first_row + static_cast<PetscInt>(found - rows.begin()));
   }
   return some;
 }

@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
+#include <utility>
 #include <vector>
 
 #include "common/index_sets.hpp"
+#include "linear/cholesky/elimination_order.hpp"
+#include "linear/kernels/decoupled_rows.hpp"
 #include "linear/kernels/gather.hpp"
+#include "linear/kernels/own_submatrix.hpp"
 
 namespace chladni::reduce {
 
@@ -29,13 +34,6 @@ std::vector<PetscInt> sorted_indices(IS set)
   return sorted;
 }
 
-petsc::Matrix submatrix(Mat A, IS rows, IS columns)
-{
-  petsc::Matrix block;
-  petsc::check(MatCreateSubMatrix(A, rows, columns, MAT_INITIAL_MATRIX, block.put()));
-  return block;
-}
-
 /// All DOFs of a node stay together (block size of K) when masters and slaves are whole nodes.
 void keep_block_size(Mat K, IS slaves)
 {
@@ -47,6 +45,17 @@ void keep_block_size(Mat K, IS slaves)
     if (s[i] % block_size != 0 || s[i + block_size - 1] != s[i] + block_size - 1) whole = 0;
   MPI_Allreduce(MPI_IN_PLACE, &whole, 1, MPI_INT, MPI_MIN, petsc::communicator(K));
   if (whole == 1) petsc::check(ISSetBlockSize(slaves, block_size));
+}
+
+/// This rank's share of values that rank 0 has of all ranks.
+std::vector<int> scattered(const std::vector<int>& all, std::size_t n_own, MPI_Comm comm)
+{
+  const std::vector<int> counts = linear::counts_of_ranks(n_own, comm);
+  const std::vector<int> starts = linear::offsets(counts);
+  std::vector<int> own(n_own);
+  MPI_Scatterv(all.data(), counts.data(), starts.data(), MPI_INT, own.data(),
+               static_cast<int>(n_own), MPI_INT, 0, comm);
+  return own;
 }
 
 }  // namespace
@@ -83,10 +92,43 @@ DofPartition partition(Mat K, IS masters, PetscInt least)
   return dofs;
 }
 
+std::vector<int> order_slaves(DofPartition& dofs, Mat K, Mat M)
+{
+  struct Slave {
+    int part, place;
+    PetscInt dof;
+    auto operator<=>(const Slave&) const = default;
+  };
+  const MPI_Comm comm = petsc::communicator(K);
+  const std::vector<PetscInt> before = petsc::own_indices(dofs.slaves);
+  const std::vector<int> places =
+      scattered(linear::elimination_order(K, dofs.slaves), before.size(), comm);
+  std::vector<Slave> slaves;
+  for (std::size_t i = 0; i < before.size(); ++i) slaves.push_back({0, places[i], before[i]});
+  int part = 0;
+  for (const petsc::IndexSet& rows : linear::decoupled_rows(K, M, dofs.slaves)) {
+    for (const PetscInt dof : petsc::own_indices(rows))
+      slaves[std::size_t(std::ranges::lower_bound(before, dof) - before.begin())].part = part;
+    ++part;
+  }
+  std::ranges::sort(slaves);
+  std::vector<PetscInt> now;
+  std::vector<int> order;
+  for (const Slave& slave : slaves) {
+    now.push_back(slave.dof);
+    order.push_back(slave.place);
+  }
+  petsc::IndexSet ordered;
+  petsc::check(ISCreateGeneral(comm, static_cast<PetscInt>(now.size()), now.data(),
+                               PETSC_COPY_VALUES, ordered.put()));
+  dofs.slaves = std::move(ordered);
+  return linear::gather(std::move(order), MPI_INT, comm);
+}
+
 PetscInt dof_of_slave(const DofPartition& dofs, PetscInt row)
 {
   const MPI_Comm comm = petsc::communicator(dofs.slaves);
-  const std::vector<PetscInt> own = sorted_indices(dofs.slaves);
+  const std::vector<PetscInt> own = petsc::own_indices(dofs.slaves);
   const PetscInt first = petsc::indices_before(dofs.slaves);
   PetscInt dof = row >= first && row < first + std::ssize(own) ? own[row - first] : -1;
   MPI_Allreduce(MPI_IN_PLACE, &dof, 1, MPIU_INT, MPI_MAX, comm);
@@ -95,16 +137,16 @@ PetscInt dof_of_slave(const DofPartition& dofs, PetscInt row)
 
 std::vector<PetscInt> all_slaves(const DofPartition& dofs)
 {
-  return linear::gather_on_all(sorted_indices(dofs.slaves), MPIU_INT,
+  return linear::gather_on_all(petsc::own_indices(dofs.slaves), MPIU_INT,
                                petsc::communicator(dofs.slaves));
 }
 
-Blocks split(Mat A, const DofPartition& dofs)
+Blocks split(Mat A, const DofPartition& dofs, const std::string& scratch)
 {
-  return {.mm = submatrix(A, dofs.masters, dofs.masters),
-          .ms = submatrix(A, dofs.masters, dofs.slaves),
-          .sm = submatrix(A, dofs.slaves, dofs.masters),
-          .ss = submatrix(A, dofs.slaves, dofs.slaves)};
+  return {.mm = linear::own_submatrix(A, dofs.masters, dofs.masters),
+          .ms = linear::own_submatrix(A, dofs.masters, dofs.slaves),
+          .sm = linear::own_submatrix(A, dofs.slaves, dofs.masters),
+          .ss = linear::own_submatrix(A, dofs.slaves, dofs.slaves, scratch)};
 }
 
 }  // namespace chladni::reduce

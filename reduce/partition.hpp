@@ -1,12 +1,14 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "common/petsc.hpp"
 
 namespace chladni::reduce {
 
-/// Masters m and slaves s of a system. Each rank holds those that it owns, ascending.
+/// Masters m and slaves s of a system. Each rank holds those that it owns: masters ascending, slaves
+/// ascending or in the order of `order_slaves`.
 struct DofPartition {
   petsc::IndexSet masters, slaves;
 };
@@ -24,6 +26,14 @@ struct Blocks {
 ///         given twice.
 DofPartition partition(Mat K, IS masters, PetscInt least = 1);
 
+/// Orders the slaves of each rank as the work on them likes it: those that neither matrix couples
+/// with others one after the other (bending and motion in the plane of a flat plate), and each of
+/// these parts in the order of its elimination, in which what a row is multiplied with is near.
+/// @return the order of elimination of the block ss of K, as linear::keep_order takes it
+/// @note   Collective.
+/// @throws chladni::Error as linear::elimination_order.
+std::vector<int> order_slaves(DofPartition& dofs, Mat K, Mat M);
+
 /// The global DOF of a row of the block ss, on every rank.
 /// @note   Collective.
 PetscInt dof_of_slave(const DofPartition& dofs, PetscInt row);
@@ -33,7 +43,9 @@ PetscInt dof_of_slave(const DofPartition& dofs, PetscInt row);
 std::vector<PetscInt> all_slaves(const DofPartition& dofs);
 
 /// Copies the blocks of `A` by masters and slaves.
+/// @param scratch  folder for files that hold the block ss; empty: it is in memory
 /// @note   Collective on the communicator of `A`.
-Blocks split(Mat A, const DofPartition& dofs);
+/// @throws chladni::Error on all ranks when one has no room for them.
+Blocks split(Mat A, const DofPartition& dofs, const std::string& scratch = {});
 
 }  // namespace chladni::reduce

@@ -5,7 +5,8 @@
 #include <numbers>
 
 #include "linear/cholesky/condition_estimate.hpp"
-#include "linear/kernels/scratch.hpp"
+#include "linear/cholesky/elimination_order.hpp"
+#include "linear/cholesky/part_solver.hpp"
 #include "linear/machine_memory.hpp"
 #include "reduce/basis.hpp"
 #include "reduce/certify.hpp"
@@ -60,9 +61,12 @@ FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener&
   phases.begin("partition");
   DofPartition dofs =
       partition(body.K, own_masters(body.K, body.masters), body.may_lack_masters ? 0 : 1);
-  Blocks K = split(body.K, dofs), M = split(body.M, dofs);
-  K.ss = linear::moved_to_scratch(std::move(K.ss), options.solver.scratch);
-  M.ss = linear::moved_to_scratch(std::move(M.ss), options.solver.scratch);
+  const bool are_ordered = linear::will_solve_for_parts(options.solver.petsc);
+  std::vector<int> order;
+  if (are_ordered) order = order_slaves(dofs, body.K, body.M);
+  Blocks K = split(body.K, dofs, options.solver.scratch);
+  Blocks M = split(body.M, dofs, options.solver.scratch);
+  if (are_ordered) linear::keep_order(K.ss, std::move(order));
   phases.begin("factorization");
   const MemoryForecast memory(body, K.ss, M.ss, options);
   linear::SolverOptions solver = options.solver;

@@ -9,6 +9,8 @@
 #include <numeric>
 
 #include "common/all_ranks.hpp"
+#include "common/index_sets.hpp"
+#include "common/petsc_attached.hpp"
 #include "linear/cholesky/shared_dissection.hpp"
 #include "linear/kernels/adjacency.hpp"
 #include "linear/kernels/gather.hpp"
@@ -28,37 +30,53 @@ std::vector<PetscInt> pattern(Mat A, PetscInt row)
   return copy;
 }
 
-/// The first rows of the blocks of this rank, and behind them the end.
-std::vector<PetscInt> block_starts(Mat A)
+/// The rows of this rank that are ordered, ascending, and the number of the block of each, counted
+/// on this rank.
+struct OwnBlocks {
+  std::vector<PetscInt> rows;
+  std::vector<int> block;
+  int n_blocks() const { return block.empty() ? 0 : block.back() + 1; }
+};
+
+/// @param rows  null: all
+OwnBlocks own_blocks(Mat A, IS rows)
 {
   PetscInt first = 0, last = 0, block_size = 1;
   petsc::check(MatGetOwnershipRange(A, &first, &last));
   petsc::check(MatGetBlockSize(A, &block_size));
-  std::vector<PetscInt> starts;
-  if (block_size > 1) {
-    for (PetscInt row = first; row < last; row += block_size) starts.push_back(row);
+  OwnBlocks own;
+  if (rows == nullptr) {
+    own.rows.resize(std::size_t(last - first));
+    std::iota(own.rows.begin(), own.rows.end(), first);
   } else {
-    std::vector<PetscInt> before;
-    for (PetscInt row = first; row < last; ++row) {
-      std::vector<PetscInt> now = pattern(A, row);
-      if (row == first || now != before) starts.push_back(row);
-      before = std::move(now);
-    }
+    own.rows = petsc::own_indices(rows);
   }
-  starts.push_back(last);
-  return starts;
+  std::vector<PetscInt> before, now;
+  for (const PetscInt row : own.rows) {
+    now = block_size > 1 ? std::vector{row / block_size} : pattern(A, row);
+    const bool is_alike = !own.block.empty() && now == before;
+    own.block.push_back(is_alike ? own.block.back() : own.n_blocks());
+    before.swap(now);
+  }
+  return own;
 }
 
-/// Number of the block of each row of A, on all ranks.
-std::vector<int> block_of_rows(const std::vector<PetscInt>& starts, PetscInt n, MPI_Comm comm)
+constexpr int left_out = -1;
+
+/// Number of the block of each row of A, or `left_out`, on all ranks.
+std::vector<int> block_of_rows(Mat A, const OwnBlocks& own)
 {
-  const auto n_own = static_cast<int>(starts.size()) - 1;
+  const MPI_Comm comm = petsc::communicator(A);
+  PetscInt begin = 0, end = 0, n = 0;
+  petsc::check(MatGetOwnershipRange(A, &begin, &end));
+  petsc::check(MatGetSize(A, &n, nullptr));
+  const int n_own = own.n_blocks();
   int first = 0;
   MPI_Exscan(&n_own, &first, 1, MPI_INT, MPI_SUM, comm);
   if (petsc::rank(comm) == 0) first = 0;
-  std::vector<int> own;
-  for (int b = 0; b < n_own; ++b) own.insert(own.end(), starts[b + 1] - starts[b], first + b);
-  std::vector<int> all = gather(std::move(own), MPI_INT, comm);
+  std::vector<int> here(std::size_t(end - begin), left_out);
+  for (std::size_t i = 0; i < own.rows.size(); ++i) here[own.rows[i] - begin] = first + own.block[i];
+  std::vector<int> all = gather(std::move(here), MPI_INT, comm);
   all.resize(n);
   MPI_Bcast(all.data(), n, MPI_INT, 0, comm);
   return all;
@@ -70,27 +88,25 @@ struct BlockGraph {
   std::vector<int> neighbours;
 };
 
-BlockGraph own_graph(Mat A, const std::vector<PetscInt>& starts, const std::vector<int>& block_of)
+BlockGraph own_graph(Mat A, const OwnBlocks& own, const std::vector<int>& block_of)
 {
-  BlockGraph graph;
-  std::vector<int> seen_by(block_of.empty() ? 0 : block_of.back() + 1, -1);
-  for (std::size_t b = 0; b + 1 < starts.size(); ++b) {
-    const std::size_t before = graph.neighbours.size();
-    const int self = block_of[starts[b]];
+  BlockGraph graph{.degrees = std::vector(std::size_t(own.n_blocks()), 0), .neighbours = {}};
+  const int last = block_of.empty() ? left_out : std::ranges::max(block_of);
+  std::vector<int> seen_by(std::size_t(last + 1), left_out);
+  for (std::size_t i = 0; i < own.rows.size(); ++i) {
+    const int self = block_of[own.rows[i]];
     seen_by[self] = self;
-    for (PetscInt row = starts[b]; row < starts[b + 1]; ++row) {
-      PetscInt n = 0;
-      const PetscInt* columns = nullptr;
-      petsc::check(MatGetRow(A, row, &n, &columns, nullptr));
-      for (PetscInt k = 0; k < n; ++k) {
-        const int other = block_of[columns[k]];
-        if (seen_by[other] == self) continue;
-        seen_by[other] = self;
-        graph.neighbours.push_back(other);
-      }
-      petsc::check(MatRestoreRow(A, row, &n, &columns, nullptr));
+    PetscInt n = 0;
+    const PetscInt* columns = nullptr;
+    petsc::check(MatGetRow(A, own.rows[i], &n, &columns, nullptr));
+    for (PetscInt k = 0; k < n; ++k) {
+      const int other = block_of[columns[k]];
+      if (other == left_out || seen_by[other] == self) continue;
+      seen_by[other] = self;
+      graph.neighbours.push_back(other);
+      ++graph.degrees[own.block[i]];
     }
-    graph.degrees.push_back(static_cast<int>(graph.neighbours.size() - before));
+    petsc::check(MatRestoreRow(A, own.rows[i], &n, &columns, nullptr));
   }
   return graph;
 }
@@ -182,27 +198,49 @@ std::vector<int> row_places(const std::vector<Number>& place, const std::vector<
   for (std::size_t b = 0; b < place.size(); ++b) next[b] = size_at[place[b]] + 1;
   std::vector<int> places;
   places.reserve(block_of.size());
-  for (const int block : block_of) places.push_back(next[block]++);
+  for (const int block : block_of)
+    if (block != left_out) places.push_back(next[block]++);
   return places;
 }
 
+template <typename Number>
+std::vector<Number> block_sizes(const std::vector<int>& block_of, std::size_t n_blocks)
+{
+  std::vector<Number> sizes(n_blocks, 0);
+  for (const int block : block_of)
+    if (block != left_out) ++sizes[block];
+  return sizes;
+}
+
+constexpr const char* order_of_matrix = "chladni_order";
+
 }  // namespace
+
+void keep_order(Mat A, std::vector<int> places)
+{
+  petsc::keep_with(reinterpret_cast<PetscObject>(A), order_of_matrix,
+                   std::make_unique<std::vector<int>>(std::move(places)));
+}
 
 std::vector<int> elimination_order(Mat A)
 {
+  const auto* known =
+      petsc::kept_with<std::vector<int>>(reinterpret_cast<PetscObject>(A), order_of_matrix);
+  return known != nullptr ? *known : elimination_order(A, nullptr);
+}
+
+std::vector<int> elimination_order(Mat A, IS rows)
+{
   const MPI_Comm comm = petsc::communicator(A);
-  PetscInt n = 0;
-  petsc::check(MatGetSize(A, &n, nullptr));
-  const std::vector<PetscInt> starts = block_starts(A);
-  const std::vector<int> block_of = block_of_rows(starts, n, comm);
-  BlockGraph own = own_graph(A, starts, block_of);
+  const OwnBlocks blocks = own_blocks(A, rows);
+  const std::vector<int> block_of = block_of_rows(A, blocks);
+  BlockGraph own = own_graph(A, blocks, block_of);
   const std::vector<int> degrees = gather_on_all(std::move(own.degrees), MPI_INT, comm);
   if (is_dissected_together(degrees, comm)) {
     const Adjacency graph =
         symmetrized({.starts = offsets(degrees),
                      .neighbours = gather_on_all(std::move(own.neighbours), MPI_INT, comm)});
-    std::vector<int> sizes(degrees.size(), 0);
-    for (const int block : block_of) ++sizes[block];
+    const std::vector<int> sizes = block_sizes<int>(block_of, degrees.size());
     const std::vector<int> place = shared_dissection(graph, sizes, comm);
     return on_all_ranks(comm, [&]() -> std::vector<int> {
       if (petsc::rank(comm) != 0) return {};
@@ -215,8 +253,7 @@ std::vector<int> elimination_order(Mat A)
     if (petsc::rank(comm) != 0) return {};
     const Adjacency graph =
         symmetrized({.starts = offsets(degrees), .neighbours = std::move(neighbours)});
-    std::vector<idx_t> sizes(degrees.size(), 0);
-    for (const int block : block_of) ++sizes[block];
+    const std::vector<idx_t> sizes = block_sizes<idx_t>(block_of, degrees.size());
     return row_places(dissect_once(graph, sizes), block_of, sizes);
   });
 }

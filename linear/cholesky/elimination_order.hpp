@@ -21,4 +21,13 @@ namespace chladni::linear {
 /// Source: Karypis and Kumar, SIAM J. Sci. Comput. 20 (1998) 359.
 std::vector<int> elimination_order(Mat A);
 
+/// The same of some rows of A, as if the others were not there.
+/// @param rows  ascending, on the rank that owns them
+/// @return on rank 0 the place of each of these rows among them, from 1, in the order of the ranks
+std::vector<int> elimination_order(Mat A, IS rows);
+
+/// Lets `elimination_order(A)` give an order that is known already.
+/// @param places  as it returns them
+void keep_order(Mat A, std::vector<int> places);
+
 }  // namespace chladni::linear

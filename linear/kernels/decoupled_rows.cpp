@@ -4,8 +4,10 @@
 #include <numeric>
 #include <utility>
 
+#include "common/index_sets.hpp"
 #include "linear/kernels/as_aij.hpp"
 #include "linear/kernels/gather.hpp"
+#include "linear/kernels/values_at.hpp"
 
 namespace chladni::linear {
 
@@ -54,12 +56,17 @@ struct Edge {
   PetscInt own, other;  ///< local, global
 };
 
+/// Of the rows of this rank, which are looked at.
+using Kept = std::vector<char>;
+
 /// Unites the rows of this rank; returns what joins them to others.
-std::vector<Edge> unite_own(Mat A, Unions& rows)
+std::vector<Edge> unite_own(Mat A, const Kept& is_kept, Unions& rows)
 {
   const petsc::Matrix aij = as_aij(A);
   std::vector<Edge> edges;
-  const auto unite = [&](PetscInt row, PetscInt column) { rows.unite(row, column); };
+  const auto unite = [&](PetscInt row, PetscInt column) {
+    if (is_kept[row] != 0 && is_kept[column] != 0) rows.unite(row, column);
+  };
   PetscBool is_distributed = PETSC_FALSE;
   petsc::check(PetscObjectTypeCompare((PetscObject)(Mat)aij, MATMPIAIJ, &is_distributed));
   if (!is_distributed) {
@@ -70,18 +77,22 @@ std::vector<Edge> unite_own(Mat A, Unions& rows)
   const PetscInt* global = nullptr;
   petsc::check(MatMPIAIJGetSeqAIJ(aij, &own, &other, &global));
   for_pattern(own, unite);
-  for_pattern(other, [&](PetscInt row, PetscInt k) { edges.push_back({row, global[k]}); });
+  for_pattern(other, [&](PetscInt row, PetscInt k) {
+    if (is_kept[row] != 0) edges.push_back({row, global[k]});
+  });
   return edges;
 }
 
+constexpr PetscInt left_out = -1;
+
 /// Sets of rows of this rank, numbered over all ranks.
 struct Pieces {
-  std::vector<PetscInt> of_row;  ///< [own rows] global number
+  std::vector<PetscInt> of_row;  ///< [own rows] global number, or `left_out`
   PetscInt first = 0, n_own = 0, n_all = 0;
 };
 
 /// A number for each set; one for all that are small and end on this rank.
-Pieces numbered(Unions& rows, const std::vector<Edge>& edges, MPI_Comm comm)
+Pieces numbered(Unions& rows, const Kept& is_kept, const std::vector<Edge>& edges, MPI_Comm comm)
 {
   constexpr PetscInt small = 64;  // parts of the rows of this rank
   std::vector<PetscInt> size(rows.size(), 0), number(rows.size(), -1);
@@ -91,6 +102,10 @@ Pieces numbered(Unions& rows, const std::vector<Edge>& edges, MPI_Comm comm)
   Pieces pieces;
   PetscInt of_small = -1;
   for (PetscInt i = 0; i < rows.size(); ++i) {
+    if (is_kept[i] == 0) {
+      pieces.of_row.push_back(left_out);
+      continue;
+    }
     const PetscInt root = rows.root(i);
     const bool is_small = goes_on[root] == 0 && size[root] < rows.size() / small;
     PetscInt& its = is_small ? of_small : number[root];
@@ -100,29 +115,9 @@ Pieces numbered(Unions& rows, const std::vector<Edge>& edges, MPI_Comm comm)
   MPI_Scan(&pieces.n_own, &pieces.first, 1, MPIU_INT, MPI_SUM, comm);
   pieces.first -= pieces.n_own;
   MPI_Allreduce(&pieces.n_own, &pieces.n_all, 1, MPIU_INT, MPI_SUM, comm);
-  for (PetscInt& piece : pieces.of_row) piece += pieces.first;
+  for (PetscInt& piece : pieces.of_row)
+    if (piece != left_out) piece += pieces.first;
   return pieces;
-}
-
-using Scatter = petsc::Owned<VecScatter, VecScatterDestroy>;
-
-/// What the ranks have at global rows of theirs.
-std::vector<double> values_at(const std::vector<PetscInt>& rows, std::vector<double> own,
-                              MPI_Comm comm)
-{
-  petsc::Vector all, wanted;
-  petsc::IndexSet from;
-  Scatter scatter;
-  std::vector<double> values(rows.size());
-  const auto n = static_cast<PetscInt>(rows.size());
-  petsc::check(VecCreateMPIWithArray(comm, 1, static_cast<PetscInt>(own.size()), PETSC_DETERMINE,
-                                     own.data(), all.put()));
-  petsc::check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, values.data(), wanted.put()));
-  petsc::check(ISCreateGeneral(PETSC_COMM_SELF, n, rows.data(), PETSC_USE_POINTER, from.put()));
-  petsc::check(VecScatterCreate(all, from, wanted, nullptr, scatter.put()));
-  petsc::check(VecScatterBegin(scatter, all, wanted, INSERT_VALUES, SCATTER_FORWARD));
-  petsc::check(VecScatterEnd(scatter, all, wanted, INSERT_VALUES, SCATTER_FORWARD));
-  return values;
 }
 
 /// Each piece with each of another rank once, two by two.
@@ -137,7 +132,9 @@ std::vector<PetscInt> joints(const Pieces& pieces, const std::vector<Edge>& edge
   std::vector<std::pair<PetscInt, PetscInt>> pairs;
   for (const Edge& edge : edges) {
     const auto place = std::ranges::lower_bound(rows, edge.other) - rows.begin();
-    pairs.emplace_back(pieces.of_row[edge.own], static_cast<PetscInt>(piece_at[place]));
+    const auto other = static_cast<PetscInt>(piece_at[place]);
+    if (other == left_out) continue;
+    pairs.emplace_back(pieces.of_row[edge.own], other);
     if (pairs.size() > 1 && pairs.back() == pairs[pairs.size() - 2]) pairs.pop_back();
   }
   std::ranges::sort(pairs);
@@ -155,7 +152,8 @@ std::pair<std::vector<double>, std::vector<double>> sizes(const std::vector<Pets
                                                           PetscInt n, MPI_Comm comm)
 {
   std::vector<double> own(n, 0.0), sum(n), largest(n);
-  for (const PetscInt set : set_of_row) own[set] += 1.0;
+  for (const PetscInt set : set_of_row)
+    if (set != left_out) own[set] += 1.0;
   MPI_Allreduce(own.data(), sum.data(), static_cast<int>(n), MPI_DOUBLE, MPI_SUM, comm);
   MPI_Allreduce(own.data(), largest.data(), static_cast<int>(n), MPI_DOUBLE, MPI_MAX, comm);
   return {sum, largest};
@@ -180,39 +178,61 @@ PetscInt unite_small_sets(std::vector<PetscInt>& set_of_row, PetscInt n, MPI_Com
     number[alone[k]] = k;
     kept += sum[alone[k]];
   }
-  for (PetscInt& set : set_of_row) set = number[set] == -1 ? n_sets : number[set];
+  for (PetscInt& set : set_of_row)
+    if (set != left_out) set = number[set] == -1 ? n_sets : number[set];
   return kept < all ? n_sets + 1 : n_sets;
 }
 
-}  // namespace
-
-std::vector<petsc::IndexSet> decoupled_rows(Mat K, Mat M)
+std::vector<petsc::IndexSet> decoupled(Mat K, Mat M, const Kept& is_kept)
 {
   constexpr PetscInt most_pieces = 20000;  // each rank looks at all of them
   const MPI_Comm comm = petsc::communicator(K);
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(K, &first, &last));
   Unions rows(last - first);
-  std::vector<Edge> edges = unite_own(K, rows);
-  const std::vector<Edge> of_mass = unite_own(M, rows);
+  std::vector<Edge> edges = unite_own(K, is_kept, rows);
+  const std::vector<Edge> of_mass = unite_own(M, is_kept, rows);
   edges.insert(edges.end(), of_mass.begin(), of_mass.end());
-  const Pieces pieces = numbered(rows, edges, comm);
+  const Pieces pieces = numbered(rows, is_kept, edges, comm);
   if (pieces.n_all > most_pieces) return {};
   Unions all(pieces.n_all);
   const std::vector<PetscInt> joined = joints(pieces, edges, comm);
   for (std::size_t k = 0; k < joined.size(); k += 2) all.unite(joined[k], joined[k + 1]);
   std::vector<PetscInt> set_of_row = pieces.of_row;
-  for (PetscInt& set : set_of_row) set = all.root(set);
+  for (PetscInt& set : set_of_row)
+    if (set != left_out) set = all.root(set);
   const PetscInt n_sets = unite_small_sets(set_of_row, pieces.n_all, comm);
   if (n_sets < 2) return {};
   std::vector<std::vector<PetscInt>> members(n_sets);
-  for (PetscInt i = 0; i < last - first; ++i) members[set_of_row[i]].push_back(first + i);
+  for (PetscInt i = 0; i < last - first; ++i)
+    if (set_of_row[i] != left_out) members[set_of_row[i]].push_back(first + i);
   std::vector<petsc::IndexSet> sets(n_sets);
   for (PetscInt k = 0; k < n_sets; ++k) {
     petsc::check(ISCreateGeneral(comm, static_cast<PetscInt>(members[k].size()), members[k].data(),
                                  PETSC_COPY_VALUES, sets[k].put()));
   }
   return sets;
+}
+
+std::size_t n_own_rows(Mat A)
+{
+  PetscInt n = 0;
+  petsc::check(MatGetLocalSize(A, &n, nullptr));
+  return static_cast<std::size_t>(n);
+}
+
+}  // namespace
+
+std::vector<petsc::IndexSet> decoupled_rows(Mat K, Mat M)
+{
+  return decoupled(K, M, Kept(n_own_rows(K), 1));
+}
+
+std::vector<petsc::IndexSet> decoupled_rows(Mat K, Mat M, IS rows)
+{
+  Kept is_kept(n_own_rows(K), 0);
+  for (const PetscInt row : petsc::own_rows(rows, K)) is_kept[std::size_t(row)] = 1;
+  return decoupled(K, M, is_kept);
 }
 
 }  // namespace chladni::linear

@@ -15,4 +15,8 @@ namespace chladni::linear {
 /// @note   Collective.
 std::vector<petsc::IndexSet> decoupled_rows(Mat K, Mat M);
 
+/// The same of some rows, as if the others were not there.
+/// @param rows  on the rank that owns them
+std::vector<petsc::IndexSet> decoupled_rows(Mat K, Mat M, IS rows);
+
 }  // namespace chladni::linear

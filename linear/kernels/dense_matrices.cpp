@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
+
+#include "common/eigen_every.hpp"
 
 namespace chladni::linear {
 
@@ -173,6 +176,49 @@ std::vector<double> column_products(Mat X, Mat Y)
   return products;
 }
 
+namespace {
+
+/// The rows of S that are not zero.
+std::vector<Eigen::Index> rows_in_use(const MatrixXd& S)
+{
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < S.rows(); ++i)
+    if (!S.row(i).isZero(0.0)) rows.push_back(i);
+  return rows;
+}
+
+/// Rows of a dense matrix that may be written.
+struct Target {
+  double* values;
+  PetscBLASInt leading_dimension;
+};
+
+/// Y <- Y + alpha X S with some columns of X, copied some rows at a time; rows in which these
+/// columns are zero are not touched.
+void add_product_of_columns(double alpha, const LocalRows& X,
+                            const std::vector<Eigen::Index>& columns, const MatrixXd& S,
+                            const Target& Y)
+{
+  constexpr PetscInt piece = 512;  // with some hundred columns in a second-level cache
+  const PetscScalar one = 1.0;
+  const auto n = static_cast<PetscBLASInt>(S.cols()), k = static_cast<PetscBLASInt>(columns.size());
+  const MatrixXd factors = S(columns, every);
+  std::vector<double> rows(std::size_t(piece) * columns.size());
+  for (PetscInt at = 0; at < X.n_rows(); at += piece) {
+    const PetscBLASInt m = std::min(piece, X.n_rows() - at);
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      std::copy_n(X.values() + at + std::size_t(columns[j]) * X.leading_dimension(), m,
+                  rows.data() + j * std::size_t(m));
+    }
+    const std::span copied(rows.data(), std::size_t(m) * columns.size());
+    if (std::ranges::all_of(copied, [](double x) { return x == 0.0; })) continue;
+    BLASgemm_("N", "N", &m, &n, &k, &alpha, rows.data(), &m, factors.data(), &k, &one,
+              Y.values + at, &Y.leading_dimension);
+  }
+}
+
+}  // namespace
+
 void add_product(double alpha, Mat X, const MatrixXd& S, Mat Y)
 {
   const LocalRows x(X);
@@ -184,10 +230,15 @@ void add_product(double alpha, Mat X, const MatrixXd& S, Mat Y)
   const auto n = static_cast<PetscBLASInt>(S.cols());
   const auto k = static_cast<PetscBLASInt>(S.rows());
   const PetscBLASInt ldx = x.leading_dimension();
-  const PetscBLASInt ld = ldy;
   const PetscScalar one = 1.0;
-  if (m > 0 && n > 0 && k > 0)
-    BLASgemm_("N", "N", &m, &n, &k, &alpha, x.values(), &ldx, S.data(), &k, &one, y, &ld);
+  const Target target{.values = y, .leading_dimension = ldy};
+  const std::vector<Eigen::Index> used = rows_in_use(S);
+  if (4 * used.size() < 3 * std::size_t(k)) {
+    if (n > 0 && !used.empty()) add_product_of_columns(alpha, x, used, S, target);
+  } else if (m > 0 && n > 0 && k > 0) {
+    BLASgemm_("N", "N", &m, &n, &k, &alpha, x.values(), &ldx, S.data(), &k, &one, y,
+              &target.leading_dimension);
+  }
   petsc::check(MatDenseRestoreArray(Y, &y));
 }
 

@@ -59,6 +59,8 @@ bool GrowingMemory::grow(std::size_t n)
   void* memory = larger(n_bytes);
   if (memory == nullptr) return false;
   values_ = static_cast<double*>(memory);
+  const bool is_mapped = !folder_.empty() || maps_memory;
+  if (!is_mapped) std::fill(values_ + n_bytes_ / sizeof(double), values_ + n, 0.0);
   n_bytes_ = n_bytes;
   return true;
 }

@@ -25,7 +25,7 @@ class GrowingMemory {
   {}
   GrowingMemory& operator=(GrowingMemory&&) = delete;
 
-  /// Makes room for n numbers; existing ones are kept.
+  /// Makes room for n numbers; existing ones are kept, others are zero.
   /// @return false if there is not enough memory, or no room for the file
   [[nodiscard]] bool grow(std::size_t n);
   double* get() const { return values_; }

@@ -1,12 +1,16 @@
 #include "linear/kernels/sparse_product.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
+#include <utility>
 
 #include "common/fitting_instructions.hpp"
+#include "common/petsc_attached.hpp"
 #include "linear/kernels/as_aij.hpp"
-#include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/gather.hpp"
+#include "linear/kernels/lines.hpp"
+#include "linear/kernels/panel_columns.hpp"
 #include "linear/log_event.hpp"
 
 namespace chladni::linear {
@@ -20,62 +24,180 @@ struct Csr {
   const PetscInt* starts;
   const PetscInt* columns;
   const PetscScalar* values;
+  std::span<const PetscInt> row(PetscInt i) const
+  {
+    return {columns + starts[i], columns + starts[i + 1]};
+  }
 };
 
-/// Y <- Y + A panel, Y row by row like the panel.
-template <PetscInt width>
-[[gnu::always_inline]] inline void add_panel(const Csr& A, PetscInt n_rows,
-                                             const double* __restrict panel, double* __restrict Y)
+/// Whether a product is added to what is there.
+enum class Start { zero, there };
+
+/// `alike` rows of Y <- A panel, from row i on, which have the same columns: what they multiply is
+/// read once.
+template <PetscInt width, int alike, Start start>
+[[gnu::always_inline]] inline void multiply_rows(const Csr& A, PetscInt i, const double* panel,
+                                                 double* Y)
 {
-  constexpr PetscInt ahead = 16;
-  const PetscInt last = A.starts[n_rows] - 1;
-  for (PetscInt i = 0; i < n_rows; ++i) {
-    double sum[width];
-    for (PetscInt c = 0; c < width; ++c) sum[c] = Y[std::size_t(i) * width + c];
-    for (PetscInt k = A.starts[i]; k < A.starts[i + 1]; ++k) {
-      // Rows of the panel stand far apart: ask for them early.
-      const double* soon = panel + std::size_t(A.columns[std::min(k + ahead, last)]) * width;
-      for (PetscInt line = 0; line < width; line += narrow) __builtin_prefetch(soon + line);
-      const double a = A.values[k];
-      const double* x = panel + std::size_t(A.columns[k]) * width;
-      for (PetscInt c = 0; c < width; ++c) sum[c] += a * x[c];
+  constexpr int n_lines = width / line_numbers;
+  // NOLINTBEGIN(modernize-avoid-c-arrays): sums that stay in registers
+  Line sum[alike][n_lines];
+  const PetscScalar* values[alike];
+  // NOLINTEND(modernize-avoid-c-arrays)
+  double* y = Y + std::size_t(i) * width;
+  for (int r = 0; r < alike; ++r) {
+    values[r] = A.values + A.starts[i + r];
+    for (int l = 0; l < n_lines; ++l) {
+      if constexpr (start == Start::there)
+        load(y + r * width + l * line_numbers, sum[r][l]);
+      else
+        sum[r][l] = Line{};
     }
-    for (PetscInt c = 0; c < width; ++c) Y[std::size_t(i) * width + c] = sum[c];
+  }
+  const PetscInt* columns = A.columns + A.starts[i];
+  const PetscInt n = A.starts[i + 1] - A.starts[i];
+  for (PetscInt k = 0; k < n; ++k) {
+    const double* from = panel + std::size_t(columns[k]) * width;
+    for (int l = 0; l < n_lines; ++l) {
+      Line x;
+      load(from + l * line_numbers, x);
+      for (int r = 0; r < alike; ++r) sum[r][l] += values[r][k] * x;
+    }
+  }
+  for (int r = 0; r < alike; ++r)
+    for (int l = 0; l < n_lines; ++l) store(sum[r][l], y + r * width + l * line_numbers);
+}
+
+constexpr int most_alike = 3;  // rows at a time: the sums of more have no registers
+
+/// Y <- A panel in some rows, Y row by row like the panel. The processor asks for what it needs of
+/// the panel soon enough by itself: asking ahead for it took longer.
+/// @param n_alike  [rows of A] how many from this one on have the same columns, up to `most_alike`
+template <PetscInt width>
+[[gnu::always_inline]] inline void multiply_panel(const Csr& A, const char* n_alike,
+                                                  const RowSpan& rows, const double* panel,
+                                                  double* Y)
+{
+  for (PetscInt i = rows.first; i < rows.last;) {
+    const PetscInt alike = std::min<PetscInt>(n_alike[i], rows.last - i);
+    if (alike >= 3)
+      multiply_rows<width, 3, Start::zero>(A, i, panel, Y);
+    else if (alike == 2)
+      multiply_rows<width, 2, Start::zero>(A, i, panel, Y);
+    else
+      multiply_rows<width, 1, Start::zero>(A, i, panel, Y);
+    i += alike;
   }
 }
 
 CHLADNI_FITTING_INSTRUCTIONS
-void add_narrow(const Csr& A, PetscInt n_rows, const double* panel, double* Y)
+void multiply_narrow(const Csr& A, const char* n_alike, const RowSpan& rows, const double* panel,
+                     double* Y)
 {
-  add_panel<narrow>(A, n_rows, panel, Y);
+  multiply_panel<narrow>(A, n_alike, rows, panel, Y);
 }
 
 CHLADNI_FITTING_INSTRUCTIONS
-void add_wide(const Csr& A, PetscInt n_rows, const double* panel, double* Y)
+void multiply_wide(const Csr& A, const char* n_alike, const RowSpan& rows, const double* panel,
+                   double* Y)
 {
-  add_panel<wide>(A, n_rows, panel, Y);
+  multiply_panel<wide>(A, n_alike, rows, panel, Y);
 }
 
-/// n columns, row by row, the rest of the width zero.
-void pack(const double* X, PetscInt ldx, PetscInt n_rows, PetscInt n, PetscInt width, double* panel)
+/// Y <- Y + A panel.
+CHLADNI_FITTING_INSTRUCTIONS
+void add_narrow(const Csr& A, const RowSpan& rows, const double* panel, double* Y)
 {
-  for (PetscInt i = 0; i < n_rows; ++i) {
-    double* row = panel + std::size_t(i) * width;
-    for (PetscInt c = 0; c < n; ++c) row[c] = X[i + std::size_t(c) * ldx];
-    for (PetscInt c = n; c < width; ++c) row[c] = 0.0;
+  for (PetscInt i = rows.first; i < rows.last; ++i)
+    multiply_rows<narrow, 1, Start::there>(A, i, panel, Y);
+}
+
+CHLADNI_FITTING_INSTRUCTIONS
+void add_wide(const Csr& A, const RowSpan& rows, const double* panel, double* Y)
+{
+  for (PetscInt i = rows.first; i < rows.last; ++i)
+    multiply_rows<wide, 1, Start::there>(A, i, panel, Y);
+}
+
+bool are_zero(const double* first, const double* last)
+{
+  return std::all_of(first, last, [](double x) { return x == 0.0; });
+}
+
+/// Rows at which a square matrix may be cut: no entry joins those before with the others.
+std::vector<char> free_cuts(const Csr& A, PetscInt n)
+{
+  std::vector<char> is_free(std::size_t(n), 0);
+  std::vector<PetscInt> nearest(std::size_t(n), n);  // column of each row
+  PetscInt farthest = 0;
+  for (PetscInt i = 0; i < n; ++i) {
+    is_free[std::size_t(i)] = farthest <= i ? 1 : 0;
+    const std::span<const PetscInt> row = A.row(i);
+    if (row.empty()) continue;
+    const auto [least, most] = std::ranges::minmax(row);
+    farthest = std::max(farthest, most + 1);
+    nearest[std::size_t(i)] = least;
   }
+  for (PetscInt i = n, least = n; i-- > 0;) {
+    least = std::min(least, nearest[std::size_t(i)]);
+    if (least < i) is_free[std::size_t(i)] = 0;
+  }
+  return is_free;
 }
 
-/// The first n columns out of a panel.
-void unpack(const double* panel, PetscInt width, PetscInt n_rows, PetscInt n, double* Y,
-            PetscInt ldy)
+/// Cuts that leave at least a sixteenth of the rows in each piece.
+std::vector<PetscInt> cuts(const Csr& A, PetscInt n)
 {
-  for (PetscInt i = 0; i < n_rows; ++i)
-    for (PetscInt c = 0; c < n; ++c)
-      Y[i + std::size_t(c) * ldy] = panel[std::size_t(i) * width + c];
+  constexpr PetscInt most_pieces = 16;  // bits of a mask are enough for them
+  std::vector<PetscInt> rows;
+  const PetscInt least = std::max<PetscInt>(n / most_pieces, 1);
+  const std::vector<char> is_free = free_cuts(A, n);
+  for (PetscInt i = least, last = 0; i + least <= n; ++i) {
+    if (is_free[std::size_t(i)] == 0 || i - last < least) continue;
+    rows.push_back(i);
+    last = i;
+  }
+  return rows;
+}
+
+/// As `multiply_panel` takes it.
+std::vector<char> numbers_alike(const Csr& A, PetscInt n)
+{
+  std::vector<char> n_alike(std::size_t(n), 1);
+  for (PetscInt i = n - 1; i-- > 0;) {
+    const char next = n_alike[std::size_t(i) + 1];
+    if (std::ranges::equal(A.row(i), A.row(i + 1)))
+      n_alike[std::size_t(i)] = static_cast<char>(next % most_alike + 1);
+  }
+  return n_alike;
 }
 
 }  // namespace
+
+/// What the rows of a sequential matrix have in common.
+struct SparseProduct::Pattern {
+  PetscObjectState entries;      ///< of which the matrix had these
+  std::vector<PetscInt> cuts;    ///< rows at which a square matrix falls apart
+  std::vector<char> n_alike;
+};
+
+/// The matrix remembers it as long as it has the same entries.
+const SparseProduct::Pattern& SparseProduct::pattern_of_own() const
+{
+  constexpr const char* name = "chladni_pattern";
+  const auto object = reinterpret_cast<PetscObject>(own_.matrix);
+  PetscObjectState entries = 0;
+  petsc::check(MatGetNonzeroState(own_.matrix, &entries));
+  const auto* known = petsc::kept_with<Pattern>(object, name);
+  if (known != nullptr && known->entries == entries) return *known;
+  const Csr A{own_.starts, own_.columns, own_.values};
+  auto found = std::make_unique<Pattern>();
+  found->entries = entries;
+  if (n_rows_ == n_columns_) found->cuts = cuts(A, n_rows_);
+  found->n_alike = numbers_alike(A, n_rows_);
+  petsc::keep_with(object, name, std::move(found));
+  return *petsc::kept_with<Pattern>(object, name);
+}
 
 SparseProduct::Rows SparseProduct::borrow(Mat sequential)
 {
@@ -164,28 +286,104 @@ void SparseProduct::exchange(PetscInt width) const
                 receive_at.data(), row, comm_);
 }
 
+/// All rows where they cannot be cut.
+std::vector<SparseProduct::Segment> SparseProduct::segments() const
+{
+  std::vector<Segment> found{{{0, n_rows_}, {0, n_columns_}}};
+  for (const PetscInt i : pattern_of_own().cuts) {
+    found.back().rows.last = found.back().columns.last = i;
+    found.push_back({{i, n_rows_}, {i, n_rows_}});
+  }
+  return found;
+}
+
+/// Of each column, on this rank.
+std::vector<SparseProduct::Mask> SparseProduct::masks(const LocalRows& X) const
+{
+  std::vector<Mask> masks;
+  for (PetscInt j = 0; j < X.n_cols(); ++j) {
+    const double* x = X.values() + std::size_t(j) * X.leading_dimension();
+    Mask mask = 0;
+    for (std::size_t k = 0; k < segments_.size(); ++k) {
+      const Segment& s = segments_[k];
+      if (!are_zero(x + s.columns.first, x + s.columns.last)) mask |= Mask{1} << k;
+    }
+    masks.push_back(mask);
+  }
+  return masks;
+}
+
+/// Some columns of Y <- A X.
+void SparseProduct::multiply(const LocalRows& X, const Panel& panel, double* Y, PetscInt ldy) const
+{
+  const Csr own{own_.starts, own_.columns, own_.values};
+  const Csr other{other_.starts, other_.columns, other_.values};
+  const bool is_distributed = !send_counts_.empty();
+  const auto multiply = panel.width == wide ? multiply_wide : multiply_narrow;
+  const auto add = panel.width == wide ? add_wide : add_narrow;
+  const char* n_alike = pattern_of_own().n_alike.data();
+  const auto at = [&](const AlignedNumbers& values, PetscInt row) {
+    return values.get() + std::size_t(row) * std::size_t(panel.width);
+  };
+  const auto is_active = [&](std::size_t k) { return (panel.is_active >> k & 1U) != 0; };
+  std::vector<const double*> from(panel.columns.size());
+  std::vector<double*> to(panel.columns.size());
+  for (std::size_t k = 0; k < segments_.size(); ++k) {
+    const RowSpan& rows = segments_[k].columns;
+    for (std::size_t c = 0; c < from.size(); ++c)
+      from[c] = X.values() + rows.first + std::size_t(panel.columns[c]) * X.leading_dimension();
+    if (is_active(k))
+      to_panel(from, {.n = rows.size()}, panel.width, at(panel_, rows.first));
+    else if (is_distributed)
+      std::fill(at(panel_, rows.first), at(panel_, rows.last), 0.0);
+  }
+  exchange(panel.width);
+  for (std::size_t k = 0; k < segments_.size(); ++k) {
+    const RowSpan& rows = segments_[k].rows;
+    for (std::size_t c = 0; c < to.size(); ++c)
+      to[c] = Y + rows.first + std::size_t(panel.columns[c]) * std::size_t(ldy);
+    if (!is_active(k) && n_ghosts_ == 0) {
+      for (double* column : to) std::fill_n(column, rows.size(), 0.0);
+      continue;
+    }
+    if (is_active(k))
+      multiply(own, n_alike, rows, panel_.get(), product_.get());
+    else
+      std::fill(at(product_, rows.first), at(product_, rows.last), 0.0);
+    if (n_ghosts_ > 0) add(other, rows, at(panel_, n_columns_), product_.get());
+    to_columns(at(product_, rows.first), panel.width, {.n = rows.size()}, to);
+  }
+}
+
 void SparseProduct::apply(Mat X, Mat Y) const
 {
   const LogEvent event(Event::sparse_product);
   const LocalRows x(X);
+  if (segments_.empty()) segments_ = segments();
+  const std::vector<Mask> here = masks(x);
+  std::vector<Mask> anywhere = here;
+  if (x.n_cols() <= narrow) {  // one panel
+    std::ranges::fill(anywhere, Mask{0});
+  } else if (!send_counts_.empty()) {
+    MPI_Allreduce(MPI_IN_PLACE, anywhere.data(), static_cast<int>(anywhere.size()), MPI_UINT32_T,
+                  MPI_BOR, comm_);
+  }
+  std::vector<PetscInt> columns(here.size());  // those of the same segments side by side
+  std::iota(columns.begin(), columns.end(), 0);
+  std::ranges::stable_sort(columns, {}, [&](PetscInt j) { return anywhere[std::size_t(j)]; });
   PetscInt ldy = 0;
   PetscScalar* y = nullptr;
   petsc::check(MatDenseGetLDA(Y, &ldy));
   petsc::check(MatDenseGetArrayWrite(Y, &y));
-  for (PetscInt first = 0; first < x.n_cols();) {
-    const PetscInt width = x.n_cols() - first > narrow ? wide : narrow;
-    const PetscInt n = std::min(width, x.n_cols() - first);
-    const auto add = width == wide ? add_wide : add_narrow;
-    pack(x.values() + std::size_t(first) * x.leading_dimension(), x.leading_dimension(), n_columns_,
-         n, width, panel_.get());
-    exchange(width);
-    std::fill_n(product_.get(), std::size_t(n_rows_) * width, 0.0);
-    add({own_.starts, own_.columns, own_.values}, n_rows_, panel_.get(), product_.get());
-    if (n_ghosts_ > 0) {
-      add({other_.starts, other_.columns, other_.values}, n_rows_,
-          panel_.get() + std::size_t(n_columns_) * width, product_.get());
-    }
-    unpack(product_.get(), width, n_rows_, n, y + std::size_t(first) * ldy, ldy);
+  for (std::size_t first = 0; first < columns.size();) {
+    std::size_t alike = first;
+    while (alike < columns.size() && anywhere[columns[alike]] == anywhere[columns[first]]) ++alike;
+    PetscInt width = wide;
+    if (alike - first <= narrow) width = narrow;
+    const std::size_t n = std::min<std::size_t>(std::size_t(width), alike - first);
+    Panel panel{.columns = std::span(columns).subspan(first, n), .width = width, .is_active = 0};
+    for (const PetscInt j : panel.columns) panel.is_active |= here[std::size_t(j)];
+    multiply(x, panel, y, ldy);
     first += n;
   }
   petsc::check(MatDenseRestoreArrayWrite(Y, &y));

@@ -1,15 +1,26 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/petsc.hpp"
 #include "linear/kernels/aligned_numbers.hpp"
+#include "linear/kernels/dense_matrices.hpp"
 
 namespace chladni::linear {
 
+/// Rows first to last - 1 of this rank.
+struct RowSpan {
+  PetscInt first, last;
+  PetscInt size() const { return last - first; }
+};
+
 /// Products of a sparse matrix with blocks of columns, sixteen or eight columns per pass over the
 /// matrix. The product is limited by memory traffic; the matrix is read a quarter as often as by
-/// PETSc's MatMatMult of AIJ and dense matrices, and the result is not allocated anew.
+/// PETSc's MatMatMult of AIJ and dense matrices, and the result is not allocated anew. Consecutive
+/// rows of a rank that are coupled to no others of it, as those of `reduce::order_slaves`, take part
+/// only for columns that are not zero there.
 class SparseProduct {
  public:
   /// @param A  kept by reference if it is of type AIJ, otherwise converted; must not change during
@@ -37,10 +48,27 @@ class SparseProduct {
     const PetscInt* columns;
     const PetscInt* first;
   };
+  /// Rows and columns of this rank that have entries with each other only.
+  struct Segment {
+    RowSpan rows, columns;
+  };
+  /// Which segments a column is not zero in, bit by bit.
+  using Mask = std::uint32_t;
+  /// Columns side by side, and where they are not all zero.
+  struct Panel {
+    std::span<const PetscInt> columns;
+    PetscInt width;
+    Mask is_active;
+  };
+  struct Pattern;
   static Rows borrow(Mat sequential);
   static void give_back(Rows& rows);
   void plan_exchange(const Ghosts& ghosts);
   void exchange(PetscInt width) const;
+  const Pattern& pattern_of_own() const;
+  std::vector<Segment> segments() const;
+  std::vector<Mask> masks(const LocalRows& X) const;
+  void multiply(const LocalRows& X, const Panel& panel, double* Y, PetscInt ldy) const;
 
   petsc::Matrix A_;  ///< AIJ
   MPI_Comm comm_;
@@ -50,6 +78,7 @@ class SparseProduct {
   std::vector<int> send_rows_, send_counts_, receive_counts_;
   AlignedNumbers panel_, product_;
   mutable std::vector<double> outbox_;
+  mutable std::vector<Segment> segments_;  ///< found when they are first asked for
 };
 
 /// A X for a dense X with the rows of A.

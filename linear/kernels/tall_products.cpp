@@ -1,8 +1,11 @@
 #include "linear/kernels/tall_products.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "linear/kernels/aligned_numbers.hpp"
+#include "linear/kernels/panel_columns.hpp"
 #include "linear/kernels/tile_kernels.hpp"
 
 namespace chladni::linear {
@@ -16,16 +19,16 @@ constexpr PetscInt chunk_rows = 256;  // with eight columns half of a first-leve
 /// n rows of at most eight long columns side by side, and zeros for those that there are not.
 void pack(const double* columns, std::ptrdiff_t ld, PetscInt n, PetscInt n_columns, double* rows)
 {
-  for (PetscInt i = 0; i < n; ++i) {
-    for (PetscInt c = 0; c < n_columns; ++c) rows[i * panel_width + c] = columns[i + c * ld];
-    for (PetscInt c = n_columns; c < panel_width; ++c) rows[i * panel_width + c] = 0.0;
-  }
+  std::array<const double*, panel_width> from{};
+  for (PetscInt c = 0; c < n_columns; ++c) from[std::size_t(c)] = columns + c * ld;
+  to_panel(std::span(from).first(std::size_t(n_columns)), {.n = n}, panel_width, rows);
 }
 
 void unpack(const double* rows, PetscInt n, PetscInt n_columns, double* columns, std::ptrdiff_t ld)
 {
-  for (PetscInt i = 0; i < n; ++i)
-    for (PetscInt c = 0; c < n_columns; ++c) columns[i + c * ld] = rows[i * panel_width + c];
+  std::array<double*, panel_width> to{};
+  for (PetscInt c = 0; c < n_columns; ++c) to[std::size_t(c)] = columns + c * ld;
+  to_columns(rows, panel_width, {.n = n}, std::span(to).first(std::size_t(n_columns)));
 }
 
 /// work(first row, number of rows) of each chunk.

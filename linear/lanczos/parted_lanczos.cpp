@@ -206,7 +206,6 @@ petsc::Matrix PartedLanczos::vectors(PetscInt first, PetscInt last) const
   if (parts_.size() == 1 && parts_.front().M == nullptr)
     return parts_.front().lanczos->vectors(first, last);
   petsc::Matrix X = large_dense(M_, last - first, scratch_);
-  petsc::check(MatZeroEntries(X));
   PetscInt ld = 0;
   petsc::check(MatDenseGetLDA(X, &ld));
   for (std::size_t k = 0; k < parts_.size(); ++k) {

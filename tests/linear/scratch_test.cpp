@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/own_submatrix.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "linear/lanczos/block_lanczos.hpp"
 #include "linear/read_solver_options.hpp"
@@ -69,7 +70,12 @@ TEST(Scratch, MultipliesByAMatrixThatWasMovedThere)
   };
   const petsc::Matrix A = band();
   const std::size_t n_before = n_scratch_maps();
-  const petsc::Matrix moved = moved_to_scratch(band(), fs::temp_directory_path().string());
+  petsc::IndexSet all;
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(A, &first, &last));
+  petsc::check(ISCreateStride(PETSC_COMM_WORLD, last - first, first, 1, all.put()));
+  const petsc::Matrix moved =
+      own_submatrix(A, all, all, fs::temp_directory_path().string());
   EXPECT_EQ(n_scratch_maps(), n_before + 1);
   PetscBool is_equal = PETSC_FALSE, is_known = PETSC_FALSE, is_symmetric = PETSC_FALSE;
   petsc::check(MatEqual(A, moved, &is_equal));

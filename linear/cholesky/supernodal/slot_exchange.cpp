@@ -5,45 +5,51 @@
 #include <utility>
 
 #include "linear/kernels/gather.hpp"
+#include "linear/kernels/panel_columns.hpp"
 #include "linear/kernels/tile_kernels.hpp"
 
 namespace chladni::linear {
 
 namespace {
 
-/// Columns first to first + 7 of some rows into rows of a panel, filled up with zeros. Rows ascend,
-/// so that columns are read as they stand in memory, and each row of the panel is one cache line.
-/// @param slot  of each of the rows, by its number
-template <typename Slot>
-void pack(LocalColumns X, PetscInt first, const std::vector<int>& rows, const Slot& slot,
-          double* panel)
+/// Columns first to first + 7, or those that there are, of some rows into rows of a panel.
+void pack(LocalColumns X, PetscInt first, const PanelRows& rows, double* panel)
 {
-  const PetscInt n = std::min<PetscInt>(panel_width, X.n_columns - first);
-  const double* from = X.values + std::size_t(first) * X.leading_dimension;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    double* to = panel + std::size_t(slot(i)) * panel_width;
-    for (PetscInt c = 0; c < n; ++c) to[c] = from[rows[i] + std::size_t(c) * X.leading_dimension];
-    for (PetscInt c = n; c < panel_width; ++c) to[c] = 0.0;
-  }
+  std::array<const double*, panel_width> columns{};
+  const auto n = std::min<std::size_t>(panel_width, std::size_t(X.n_columns - first));
+  for (std::size_t c = 0; c < n; ++c)
+    columns[c] = X.values + (std::size_t(first) + c) * std::size_t(X.leading_dimension);
+  to_panel(std::span(columns).first(n), rows, panel_width, panel);
 }
 
-/// @param columns  of X, at most as many as a panel has
-template <typename Slot>
-void unpack(const double* panel, const Slot& slot, std::span<const int> columns,
-            const std::vector<int>& rows, LocalColumns X)
+/// Some columns of X, which keeps memory that was never touched where rows are zero.
+/// @param columns  at most as many as a panel has
+void unpack(const double* panel, const PanelRows& rows, std::span<const int> columns,
+            LocalColumns X, std::span<const char> is_zero)
 {
   std::array<double*, panel_width> to{};
   for (std::size_t c = 0; c < columns.size(); ++c)
-    to[c] = X.values + std::size_t(columns[c]) * X.leading_dimension;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double* from = panel + std::size_t(slot(i)) * panel_width;
-    for (std::size_t c = 0; c < columns.size(); ++c) to[c][rows[i]] = from[c];
+    to[c] = X.values + std::size_t(columns[c]) * std::size_t(X.leading_dimension);
+  const std::span all = std::span(to).first(columns.size());
+  if (is_zero.empty()) return to_columns(panel, panel_width, rows, all);
+  const auto is_zero_at = [&](PetscInt i) { return is_zero[std::size_t(rows.rows[i])] != 0; };
+  for (PetscInt i = 0; i < rows.n;) {
+    PetscInt last = i + 1;
+    while (last < rows.n && is_zero_at(last) == is_zero_at(i)) ++last;
+    if (is_zero_at(i)) {
+      for (PetscInt k = i; k < last; ++k)
+        for (double* column : all)
+          if (column[rows.rows[k]] != 0.0) column[rows.rows[k]] = 0.0;
+    } else {
+      const bool has_slots = rows.slots != nullptr;
+      to_columns(has_slots ? panel : panel + std::size_t(i) * panel_width, panel_width,
+                 {.n = last - i,
+                  .rows = rows.rows + i,
+                  .slots = has_slots ? rows.slots + i : nullptr},
+                 all);
+    }
+    i = last;
   }
-}
-
-std::size_t same(std::size_t i)
-{
-  return i;
 }
 
 void put(const double* from, const std::vector<int>& slots, double* panel)
@@ -92,7 +98,8 @@ SlotExchange::SlotExchange(const RowRange& here, const std::vector<RowSlot>& row
 
 void SlotExchange::to_slots(LocalColumns X, PetscInt first, Panels panels) const
 {
-  const auto own_slot = [&](std::size_t i) { return slots_[i]; };
+  const PanelRows here{.n = static_cast<PetscInt>(rows_.size()), .rows = rows_.data()};
+  const PanelRows alone{.n = here.n, .rows = rows_.data(), .slots = slots_.data()};
   const bool is_alone = petsc::size(comm_) == 1;
   const RowType row_of_panel(panel_width);
   std::vector<double> out(is_alone ? 0 : rows_.size() * panel_width),
@@ -100,10 +107,10 @@ void SlotExchange::to_slots(LocalColumns X, PetscInt first, Panels panels) const
   for (int p = 0; p < panels.n_panels; ++p, first += panel_width) {
     double* panel = panels.values + p * panels.stride;
     if (is_alone) {
-      pack(X, first, rows_, own_slot, panel);
+      pack(X, first, alone, panel);
       continue;
     }
-    pack(X, first, rows_, same, out.data());
+    pack(X, first, here, out.data());
     MPI_Alltoallv(out.data(), row_counts_.data(), row_starts_.data(), row_of_panel, in.data(),
                   slot_counts_.data(), slot_starts_.data(), row_of_panel, comm_);
     put(in.data(), slots_, panel);
@@ -112,9 +119,11 @@ void SlotExchange::to_slots(LocalColumns X, PetscInt first, Panels panels) const
   }
 }
 
-void SlotExchange::to_rows(Panels panels, std::span<const int> columns, LocalColumns X) const
+void SlotExchange::to_rows(Panels panels, std::span<const int> columns, LocalColumns X,
+                           std::span<const char> is_zero) const
 {
-  const auto own_slot = [&](std::size_t i) { return slots_[i]; };
+  const PanelRows here{.n = static_cast<PetscInt>(rows_.size()), .rows = rows_.data()};
+  const PanelRows alone{.n = here.n, .rows = rows_.data(), .slots = slots_.data()};
   const bool is_alone = petsc::size(comm_) == 1;
   const RowType row_of_panel(panel_width);
   std::vector<double> in(is_alone ? 0 : rows_.size() * panel_width),
@@ -125,13 +134,13 @@ void SlotExchange::to_rows(Panels panels, std::span<const int> columns, LocalCol
     const auto some =
         columns.subspan(first, std::min<std::size_t>(panel_width, columns.size() - first));
     if (is_alone) {
-      unpack(panel, own_slot, some, rows_, X);
+      unpack(panel, alone, some, X, is_zero);
       continue;
     }
     get(panel, slots_, out.data());
     MPI_Alltoallv(out.data(), slot_counts_.data(), slot_starts_.data(), row_of_panel, in.data(),
                   row_counts_.data(), row_starts_.data(), row_of_panel, comm_);
-    unpack(in.data(), same, some, rows_, X);
+    unpack(in.data(), here, some, X, is_zero);
   }
 }
 

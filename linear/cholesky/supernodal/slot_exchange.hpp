@@ -35,7 +35,14 @@ class SlotExchange {
   /// ranks that eliminate it.
   void to_slots(LocalColumns X, PetscInt first, Panels panels) const;
   /// Copies panels, one column after the other, into the given columns of X.
-  void to_rows(Panels panels, std::span<const int> columns, LocalColumns X) const;
+  void to_rows(Panels panels, std::span<const int> columns, LocalColumns X) const
+  {
+    to_rows(panels, columns, X, {});
+  }
+  /// The same where some rows of this rank are zero: memory that was never touched stays so.
+  /// @param is_zero  [own rows]; empty: none
+  void to_rows(Panels panels, std::span<const int> columns, LocalColumns X,
+               std::span<const char> is_zero) const;
 
  private:
   MPI_Comm comm_ = MPI_COMM_NULL;

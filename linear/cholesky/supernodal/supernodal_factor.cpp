@@ -83,11 +83,11 @@ void SupernodalFactor::analyze(Mat A, const std::vector<int>& places)
   number_trees();
   whole_.supernodes = of_trees(std::vector<char>(tree_.n_supernodes(), 1));
   number_slots();
-  RowRange here{.comm = comm_, .first = 0, .last = 0};
-  petsc::check(MatGetOwnershipRange(A, &here.first, &here.last));
+  here_ = {.comm = comm_, .first = 0, .last = 0};
+  petsc::check(MatGetOwnershipRange(A, &here_.first, &here_.last));
   std::vector<int> rows(n);
   std::iota(rows.begin(), rows.end(), 0);
-  whole_.exchange = exchange_of(rows, here);
+  whole_.exchange = exchange_of(rows, here_);
   MatInfo info{};
   petsc::check(MatGetInfo(A, MAT_GLOBAL_SUM, &info));
   n_entries_ = info.nz_used;

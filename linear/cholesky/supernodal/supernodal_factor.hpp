@@ -109,8 +109,14 @@ class SupernodalFactor : public CholeskyFactor {
   std::vector<std::vector<int>> trees_of(const SparseColumns& B) const;
   std::vector<char> take(const SparseColumns& B, const std::vector<int>& columns,
                          Panels block) const;
-  void solve_block(const SparseColumns& B, const std::vector<int>& columns,
-                   const std::vector<std::vector<int>>& trees, LocalColumns X);
+  std::vector<int> trees_of_own_rows() const;
+  /// Right-hand sides with few entries, and the trees that each of them and each own row is in.
+  struct SparseProblem {
+    SparseColumns B;
+    std::vector<std::vector<int>> trees;
+    std::vector<int> tree_of_row;
+  };
+  void solve_block(const SparseProblem& problem, const std::vector<int>& columns, LocalColumns X);
   void sum_slots(const std::vector<int>& supernodes, Panels X, MPI_Comm comm) const;
   std::vector<char> active(Panels X, const Supernodes& trees) const;
   void sweep_forward(Panels X, const Supernodes& trees, const std::vector<char>& is_active) const;
@@ -136,6 +142,7 @@ class SupernodalFactor : public CholeskyFactor {
   std::vector<int> below_slots_;          ///< for all below_rows of the tree
   AlignedNumbers tiles_, panel_values_;
   SupernodalPart whole_;
+  RowRange here_{};  ///< of the matrix
   double n_entries_ = 0.0;
   /// Approximate number of entries in the rows gathered from other ranks.
   double n_gathered_ = 0.0;

@@ -235,6 +235,18 @@ std::vector<std::vector<int>> SupernodalFactor::trees_of(const SparseColumns& B)
   return trees;
 }
 
+std::vector<int> SupernodalFactor::trees_of_own_rows() const
+{
+  std::vector<int> trees(std::size_t(here_.last - here_.first));
+  for (int s = 0; s < tree_.n_supernodes(); ++s) {
+    for (int p = tree_.first_column[s]; p < tree_.first_column[s + 1]; ++p) {
+      const int row = tree_.row[p];
+      if (row >= here_.first && row < here_.last) trees[std::size_t(row - here_.first)] = tree_of_[s];
+    }
+  }
+  return trees;
+}
+
 /// Some columns; the own supernodes where they are not zero, and those above, and all shared ones.
 std::vector<char> SupernodalFactor::take(const SparseColumns& B, const std::vector<int>& columns,
                                          Panels block) const
@@ -262,33 +274,37 @@ std::vector<char> SupernodalFactor::take(const SparseColumns& B, const std::vect
 void SupernodalFactor::solve(const SparseColumns& on_first_rank, LocalColumns X)
 {
   const LogEvent event(Event::solution);
-  const SparseColumns B = on_all(on_first_rank, comm_);
-  const std::vector<std::vector<int>> trees = trees_of(B);
-  std::vector<int> order(B.n_columns), block;
+  SparseProblem problem{.B = on_all(on_first_rank, comm_), .trees = {}, .tree_of_row = {}};
+  problem.trees = trees_of(problem.B);
+  problem.tree_of_row = trees_of_own_rows();
+  const int n_columns = problem.B.n_columns;
+  const auto trees = [&](int j) -> const std::vector<int>& { return problem.trees[j]; };
+  std::vector<int> order(n_columns), block;
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, [&](int j) { return trees[j]; });
+  std::ranges::stable_sort(order, {}, trees);
   for (std::size_t i = 0; i < order.size(); ++i) {
     block.push_back(order[i]);
     const bool is_last = i + 1 == order.size();
-    const bool next_is_alike = !is_last && trees[order[i]] == trees[order[i + 1]];
+    const bool next_is_alike = !is_last && trees(order[i]) == trees(order[i + 1]);
     if (!is_last && !is_complete(block, most_columns, next_is_alike)) continue;
-    solve_block(B, block, trees, X);
-    report_progress(double(i + 1) / B.n_columns);
+    solve_block(problem, block, X);
+    report_progress(double(i + 1) / n_columns);
     block.clear();
   }
   panel_values_.reset();  // later solutions touch fewer panels
 }
 
-void SupernodalFactor::solve_block(const SparseColumns& B, const std::vector<int>& columns,
-                                   const std::vector<std::vector<int>>& trees, LocalColumns X)
+void SupernodalFactor::solve_block(const SparseProblem& problem, const std::vector<int>& columns,
+                                   LocalColumns X)
 {
-  std::vector<char> roots(tree_.n_supernodes(), 0);
+  std::vector<char> roots(tree_.n_supernodes(), 0), is_zero;
   for (const int j : columns)
-    for (const int root : trees[j]) roots[root] = 1;
+    for (const int root : problem.trees[j]) roots[root] = 1;
+  for (const int tree : problem.tree_of_row) is_zero.push_back(roots[tree] == 0 ? 1 : 0);
   const Panels block = panels(columns.size());
-  const std::vector<char> is_active = take(B, columns, block);
+  const std::vector<char> is_active = take(problem.B, columns, block);
   sweep(block, of_trees(roots), is_active);
-  whole_.exchange.to_rows(block, columns, X);
+  whole_.exchange.to_rows(block, columns, X, is_zero);
 }
 
 }  // namespace chladni::linear
