@@ -1,6 +1,7 @@
 #include "linear/machine_memory.hpp"
 
 #include <malloc.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -119,6 +120,14 @@ void give_back_freed()
 double freed_MiB()
 {
   return static_cast<double>(mallinfo2().fordblks) / (1024.0 * 1024.0);
+}
+
+double resident_MiB()
+{
+  std::ifstream pages("/proc/self/statm");
+  double all = 0.0, resident = 0.0;
+  pages >> all >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / bytes_in_MiB;
 }
 
 MemoryNeed tightest_machine(double own_MiB, double free_MiB, MPI_Comm comm)

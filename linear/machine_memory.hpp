@@ -39,6 +39,9 @@ void give_back_freed();
 /// What is free in the heap of this process, also what has been given back, MiB.
 double freed_MiB();
 
+/// What this process has in memory, MiB; zero where the system does not tell.
+double resident_MiB();
+
 /// The machine that lacks most or, if none lacks memory, has the least left.
 /// @param own_MiB   needed by this rank
 /// @param free_MiB  free on its machine

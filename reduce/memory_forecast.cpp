@@ -111,10 +111,11 @@ double MemoryForecast::columns_in_search(double n_modes) const
   constexpr double blocks_of_lanczos = 16.0;
   if (n_modes == 0.0) return 0.0;
   const bool is_free = has_free_masters(options_.basis.method);
-  const double there = options_.basis.tolerance || is_free ? n_masters_ : 0.0;  // Psi comes first
+  const double Psi = largest_part_ * n_masters_;
+  const double there = options_.basis.tolerance || is_free ? Psi : 0.0;  // Psi comes first
   const double copied_Psi = largest_part_ < 1.0 && is_free ? largest_part_ * n_masters_ : 0.0;
   const double modes_of_part = largest_part_ < 1.0 ? largest_part_ * n_modes : 0.0;
-  const double large = there + basis_columns(n_modes) + n_modes + modes_of_part;
+  const double large = there + basis_columns(n_modes) + largest_part_ * n_modes + modes_of_part;
   return in_memory_ * large + copied_Psi + blocks_of_lanczos;
 }
 
@@ -123,8 +124,8 @@ double MemoryForecast::beside_MiB(double n_modes) const
   n_modes = std::min(n_modes, n_slaves_);
   const double kept = n_masters_ + n_modes;
   const double kept_in_memory = has_free_masters(options_.basis.method)
-                                    ? in_memory_ * n_masters_ + n_modes
-                                    : in_memory_ * kept;
+                                    ? in_memory_ * largest_part_ * n_masters_ + n_modes
+                                    : in_memory_ * largest_part_ * kept;
   const WorkAfterwards& later = options_.later;
   const double for_each =
       later.columns_for_each_kept + largest_part_ * later.of_a_part_for_each_kept;
@@ -143,7 +144,8 @@ linear::SecondFactor MemoryForecast::second(double n_modes) const
   if (!options_.count.value_or(false)) return {};
   return {.entries = entries_of_counting_factor,
           // K - sigma M, of it the rows that are counted, and the graphs of their order
-          .beside_MiB = in_memory_ * column_MiB_ * (n_masters_ + std::min(n_modes, n_slaves_)) +
+          .beside_MiB = in_memory_ * column_MiB_ * largest_part_ *
+                            (n_masters_ + std::min(n_modes, n_slaves_)) +
                         3.0 * K_MiB_};
 }
 

@@ -17,13 +17,15 @@ void check_memory(Mat factor, MatFactorError error, const FactorOptions& options
 {
   if (error != MAT_FACTOR_OUTMEMORY) return;
   const MemoryNeed need = memory_need(factor);
-  const MemoryNeed beside =
-      tightest_machine(options.beside_MiB, need.free_MiB, petsc::communicator(factor));
+  const auto on_machine = [&](double own_MiB) {
+    return tightest_machine(own_MiB, need.free_MiB, petsc::communicator(factor));
+  };
+  const MemoryNeed beside = on_machine(options.beside_MiB), there = on_machine(resident_MiB());
   throw Error(fmt::format(
-      "factorize: the factor of K_ss and what comes beside it need {}{:.0f} MiB on one machine, "
-      "where {:.0f} MiB are free{}; use more machines, a coarser mesh, fewer masters or modes, "
+      "factorize: the factor of K_ss and what comes beside it need {}{:.0f} MiB on one machine "
+      "besides {:.0f} MiB that are taken, where {:.0f} MiB are free{}; use more machines, a coarser mesh, fewer masters or modes, "
       "-cms_scratch or a larger -cms_memory",
-      options.is_least ? "at least " : "", need.needed_MiB, need.free_MiB,
+      options.is_least ? "at least " : "", need.needed_MiB, there.needed_MiB, need.free_MiB,
       beside.fits() ? "" : ": modes and constraint modes alone need more than there is"));
 }
 

@@ -10,7 +10,7 @@
 #include "pencils.hpp"
 #include "reduce/partition.hpp"
 #include "reduce/tolerance_search.hpp"
-#include "tests/linear/chain.hpp"
+#include "tests/linear/matrices.hpp"
 
 namespace chladni::reduce {
 namespace {
@@ -194,6 +194,49 @@ TEST(ToleranceSearch, LacksNoFrequencyOfTheRange)
     search.find_modes();
   } while (!search.is_enough());
   EXPECT_EQ(search.modes().omega.size(), 2u);
+}
+
+/// Pairs of two chains that nothing couples, of each by turns: they are estimated in blocks of the
+/// same chain, and come back in their order.
+TEST(ErrorEstimates, OfSeveralPartsAreThoseOfEachPair)
+{
+  constexpr PetscInt n_all = 60;
+  const auto chains = [](double first, double second, double next) {
+    return linear::testing::matrix(n_all, 3, [=](PetscInt i) {
+      linear::testing::Row row{{i, i % 2 == 0 ? first : second}};
+      if (i > 1) row.emplace_back(i - 2, next);
+      if (i + 2 < n_all) row.emplace_back(i + 2, next);
+      return row;
+    });
+  };
+  const petsc::Matrix K_all = chains(2.0, 2.3, -1.0), M_all = chains(1.0, 1.5, 0.1);
+  const DofPartition dofs = partition(K_all, master_set(K_all, {0, 1}));
+  const Blocks K = split(K_all, dofs), M = split(M_all, dofs);
+  const linear::Factorization K_ss = linear::factorize(K.ss);
+  const CraigBamptonBasis Q_CB{.Psi = constraint_modes(K_ss, K),
+                               .modes = fixed_interface_modes(K_ss, M.ss, {.modes = 10})};
+  const ReducedModel model = project(Q_CB, K, M);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(model.K, model.M);
+  ReducedPairs pairs{.X = eigen.eigenvectors().leftCols(9), .lambda = {}};
+  pairs.X = (pairs.X.array().abs() < 1e-9).select(0.0, pairs.X);  // round-off of the other chain
+  pairs.lambda.assign(eigen.eigenvalues().begin(), eigen.eigenvalues().begin() + 9);
+  const int n_first = static_cast<int>((pairs.X.row(0).array() != 0.0).count());
+  ASSERT_GT(n_first, 2);
+  ASSERT_LT(n_first, 7);
+  const Condensation system{.K_ss = K_ss, .Q_CB = Q_CB, .K = K, .M = M};
+  const ErrorEstimates all = error_estimates(system, pairs, Purpose::bounds);
+  for (int k = 0; k < 9; ++k) {
+    const ErrorEstimates one =
+        error_estimates(system, {.X = pairs.X.col(k), .lambda = {pairs.lambda[k]}});
+    EXPECT_NEAR(all.eta2[k], one.eta2[0], 1e-12 * one.eta2[0] + 1e-16) << k;
+    EXPECT_NEAR(all.rounding[k], one.rounding[0], 1e-13) << k;
+    EXPECT_NEAR(all.inner_products(k, k), one.eta2[0], 1e-12 * one.eta2[0] + 1e-16) << k;
+    for (int j = 0; j < 9; ++j) {
+      const bool is_of_other = (pairs.X(0, j) != 0.0) != (pairs.X(0, k) != 0.0);
+      const double least = is_of_other ? 1e-18 : 1.0;
+      EXPECT_LT(std::abs(all.inner_products(j, k)), least);
+    }
+  }
 }
 
 TEST(GrowingModel, HasAHeavierModelThatCountsAllEigenvalues)
