@@ -244,9 +244,10 @@ ErrorEstimates error_estimates(const Condensation& system, const ReducedPairs& p
       estimates.rounding[k] =
           4.0 * eps * terms + 2.0 * std::abs(some.lambda[i] / of.rayleigh[i] - 1.0);
     }
-    if (with_inner_products)
+    if (with_inner_products) {
       add_inner_products(forms, std::span(blocks).first(b + 1), pairs.lambda,
                          estimates.inner_products);
+    }
   }
   return estimates;
 }

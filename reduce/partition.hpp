@@ -7,8 +7,8 @@
 
 namespace chladni::reduce {
 
-/// Masters m and slaves s of a system. Each rank holds those that it owns: masters ascending, slaves
-/// ascending or in the order of `order_slaves`.
+/// Masters m and slaves s of a system. Each rank holds those that it owns: masters ascending,
+/// slaves ascending or in the order of `order_slaves`.
 struct DofPartition {
   petsc::IndexSet masters, slaves;
 };

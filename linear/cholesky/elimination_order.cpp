@@ -75,7 +75,8 @@ std::vector<int> block_of_rows(Mat A, const OwnBlocks& own)
   MPI_Exscan(&n_own, &first, 1, MPI_INT, MPI_SUM, comm);
   if (petsc::rank(comm) == 0) first = 0;
   std::vector<int> here(std::size_t(end - begin), left_out);
-  for (std::size_t i = 0; i < own.rows.size(); ++i) here[own.rows[i] - begin] = first + own.block[i];
+  for (std::size_t i = 0; i < own.rows.size(); ++i)
+    here[own.rows[i] - begin] = first + own.block[i];
   std::vector<int> all = gather(std::move(here), MPI_INT, comm);
   all.resize(n);
   MPI_Bcast(all.data(), n, MPI_INT, 0, comm);

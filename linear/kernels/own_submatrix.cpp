@@ -179,8 +179,7 @@ petsc::Matrix sequential(Mat A, IS rows, IS columns, const std::string& folder)
   const Layout layout(rows, columns);
   const std::vector<PetscInt> own_rows = petsc::own_rows(rows, A);
   const Selection some(A, own_rows, own_places(A, columns));
-  std::unique_ptr<GrowingMemory> room =
-      room_for(some.n_bytes(), folder, petsc::communicator(A));
+  std::unique_ptr<GrowingMemory> room = room_for(some.n_bytes(), folder, petsc::communicator(A));
   Pieces pieces(room->get());
   const Selection::Target to{.values = pieces.of<PetscScalar>(some.n_entries()),
                              .columns = pieces.of<PetscInt>(some.n_entries()),

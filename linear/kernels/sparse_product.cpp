@@ -47,12 +47,11 @@ template <PetscInt width, int alike, Start start>
   double* y = Y + std::size_t(i) * width;
   for (int r = 0; r < alike; ++r) {
     values[r] = A.values + A.starts[i + r];
-    for (int l = 0; l < n_lines; ++l) {
+    for (int l = 0; l < n_lines; ++l)
       if constexpr (start == Start::there)
         load(y + r * width + l * line_numbers, sum[r][l]);
       else
         sum[r][l] = Line{};
-    }
   }
   const PetscInt* columns = A.columns + A.starts[i];
   const PetscInt n = A.starts[i + 1] - A.starts[i];
@@ -176,8 +175,8 @@ std::vector<char> numbers_alike(const Csr& A, PetscInt n)
 
 /// What the rows of a sequential matrix have in common.
 struct SparseProduct::Pattern {
-  PetscObjectState entries;      ///< of which the matrix had these
-  std::vector<PetscInt> cuts;    ///< rows at which a square matrix falls apart
+  PetscObjectState entries;    ///< of which the matrix had these
+  std::vector<PetscInt> cuts;  ///< rows at which a square matrix falls apart
   std::vector<char> n_alike;
 };
 

@@ -19,8 +19,8 @@ struct RowSpan {
 /// Products of a sparse matrix with blocks of columns, sixteen or eight columns per pass over the
 /// matrix. The product is limited by memory traffic; the matrix is read a quarter as often as by
 /// PETSc's MatMatMult of AIJ and dense matrices, and the result is not allocated anew. Consecutive
-/// rows of a rank that are coupled to no others of it, as those of `reduce::order_slaves`, take part
-/// only for columns that are not zero there.
+/// rows of a rank that are coupled to no others of it, as those of `reduce::order_slaves`, take
+/// part only for columns that are not zero there.
 class SparseProduct {
  public:
   /// @param A  kept by reference if it is of type AIJ, otherwise converted; must not change during

@@ -74,8 +74,7 @@ TEST(Scratch, MultipliesByAMatrixThatWasMovedThere)
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(A, &first, &last));
   petsc::check(ISCreateStride(PETSC_COMM_WORLD, last - first, first, 1, all.put()));
-  const petsc::Matrix moved =
-      own_submatrix(A, all, all, fs::temp_directory_path().string());
+  const petsc::Matrix moved = own_submatrix(A, all, all, fs::temp_directory_path().string());
   EXPECT_EQ(n_scratch_maps(), n_before + 1);
   PetscBool is_equal = PETSC_FALSE, is_known = PETSC_FALSE, is_symmetric = PETSC_FALSE;
   petsc::check(MatEqual(A, moved, &is_equal));

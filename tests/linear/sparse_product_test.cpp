@@ -89,8 +89,8 @@ TEST(SparseProduct, SeesThatAMatrixGotOtherEntries)
   if (first == 0) petsc::check(MatSetValue(A, 0, n - 1, 5.0, INSERT_VALUES));
   if (last == n) petsc::check(MatSetValue(A, n - 1, 0, 5.0, INSERT_VALUES));
   testing::finish(A);
-  const MatrixXd found = inner_product(on_ranks(A, MatrixXd::Identity(n, n)),
-                                       sparse_product(A, on_ranks(A, X)));
+  const MatrixXd found =
+      inner_product(on_ranks(A, MatrixXd::Identity(n, n)), sparse_product(A, on_ranks(A, X)));
   EXPECT_LT((found - replicate(A) * X).norm(), 1e-12);
 }
 

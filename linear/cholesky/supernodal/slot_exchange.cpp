@@ -42,11 +42,10 @@ void unpack(const double* panel, const PanelRows& rows, std::span<const int> col
           if (column[rows.rows[k]] != 0.0) column[rows.rows[k]] = 0.0;
     } else {
       const bool has_slots = rows.slots != nullptr;
-      to_columns(has_slots ? panel : panel + std::size_t(i) * panel_width, panel_width,
-                 {.n = last - i,
-                  .rows = rows.rows + i,
-                  .slots = has_slots ? rows.slots + i : nullptr},
-                 all);
+      to_columns(
+          has_slots ? panel : panel + std::size_t(i) * panel_width, panel_width,
+          {.n = last - i, .rows = rows.rows + i, .slots = has_slots ? rows.slots + i : nullptr},
+          all);
     }
     i = last;
   }

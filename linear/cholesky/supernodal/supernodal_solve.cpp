@@ -241,7 +241,8 @@ std::vector<int> SupernodalFactor::trees_of_own_rows() const
   for (int s = 0; s < tree_.n_supernodes(); ++s) {
     for (int p = tree_.first_column[s]; p < tree_.first_column[s + 1]; ++p) {
       const int row = tree_.row[p];
-      if (row >= here_.first && row < here_.last) trees[std::size_t(row - here_.first)] = tree_of_[s];
+      if (row >= here_.first && row < here_.last)
+        trees[std::size_t(row - here_.first)] = tree_of_[s];
     }
   }
   return trees;
