@@ -166,13 +166,12 @@ bool overlap(const Eigen::VectorXd& a, const Eigen::VectorXd& b)
   return (a.array() != 0.0 && b.array() != 0.0).any();
 }
 
-/// Pairs in blocks of at most `most`; those that move different parts of the body, as bending and
-/// motion in the plane do, in different ones, which are worked on without the rest.
-std::vector<Numbers> blocks_of(const ReducedPairs& pairs, PetscInt most)
+/// Pairs in groups that move different parts of the body.
+std::vector<Numbers> groups_of(const ReducedPairs& pairs)
 {
   struct Group {
     Eigen::VectorXd moved;
-    std::vector<Numbers> blocks;
+    Numbers pairs;
   };
   std::vector<Group> groups;
   for (PetscInt k = 0; k < pairs.X.cols(); ++k) {
@@ -180,16 +179,36 @@ std::vector<Numbers> blocks_of(const ReducedPairs& pairs, PetscInt most)
     const auto alike =
         std::ranges::find_if(groups, [&](const Group& g) { return overlap(g.moved, x); });
     if (alike == groups.end()) {
-      groups.push_back({.moved = x, .blocks = {{k}}});
-      continue;
+      groups.push_back({.moved = x, .pairs = {k}});
+    } else {
+      alike->moved += x;
+      alike->pairs.push_back(k);
     }
-    alike->moved += x;
-    if (std::ssize(alike->blocks.back()) == most) alike->blocks.emplace_back();
-    alike->blocks.back().push_back(k);
   }
-  std::vector<Numbers> blocks;
-  for (const Group& group : groups)
-    blocks.insert(blocks.end(), group.blocks.begin(), group.blocks.end());
+  std::vector<Numbers> numbers;
+  for (Group& group : groups) numbers.push_back(std::move(group.pairs));
+  return numbers;
+}
+
+/// Pairs in blocks of at most `most`; those that move different parts of the body, as bending and
+/// motion in the plane do, in different ones, which are worked on without the rest. A few pairs are
+/// not worth a block of their own.
+std::vector<Numbers> blocks_of(const ReducedPairs& pairs, PetscInt most)
+{
+  constexpr std::ptrdiff_t few = 8;
+  std::vector<Numbers> groups(1), blocks;
+  for (const Numbers& group : groups_of(pairs))
+    if (std::ssize(group) < few)
+      groups.front().insert(groups.front().end(), group.begin(), group.end());
+    else
+      groups.push_back(group);
+  for (const Numbers& group : groups) {
+    for (std::size_t first = 0; first < group.size(); first += std::size_t(most)) {
+      const std::size_t last = std::min(first + std::size_t(most), group.size());
+      blocks.emplace_back(group.begin() + std::ptrdiff_t(first),
+                          group.begin() + std::ptrdiff_t(last));
+    }
+  }
   return blocks;
 }
 

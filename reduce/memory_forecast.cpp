@@ -1,10 +1,14 @@
 #include "reduce/memory_forecast.hpp"
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
+#include "common/index_sets.hpp"
 #include "linear/cholesky/cholesky_types.hpp"
 #include "linear/cholesky/part_solver.hpp"
 #include "linear/kernels/decoupled_rows.hpp"
+#include "linear/kernels/dense_matrices.hpp"
 #include "linear/machine_memory.hpp"
 #include "reduce/basis.hpp"
 #include "reduce/certify.hpp"
@@ -53,13 +57,44 @@ bool lets_matrices_go_at_once(const ReductionOptions& options)
   return !needs_matrices(options, options.count.value_or(true));
 }
 
-MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, Mat M_ss,
+namespace {
+
+/// Of the entries of constraint modes the share in the parts that their masters move, the others
+/// being zero.
+double share_in_parts(const std::vector<petsc::IndexSet>& parts, Mat K_sm)
+{
+  PetscInt first = 0, last = 0, n_s = 0, n_m = 0;
+  petsc::check(MatGetOwnershipRange(K_sm, &first, &last));
+  petsc::check(MatGetSize(K_sm, &n_s, &n_m));
+  std::vector<std::size_t> part_of(std::size_t(last - first));
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (const PetscInt row : petsc::own_rows(parts[p], K_sm)) part_of[std::size_t(row)] = p;
+  std::vector<int> moves(parts.size() * std::size_t(n_m), 0);  // [parts x masters]
+  linear::for_local_entries(K_sm, [&](PetscInt row, PetscInt master, double value) {
+    const std::size_t part = part_of[std::size_t(row - first)];
+    if (value != 0.0) moves[part * std::size_t(n_m) + std::size_t(master)] = 1;
+  });
+  MPI_Allreduce(MPI_IN_PLACE, moves.data(), static_cast<int>(moves.size()), MPI_INT, MPI_MAX,
+                petsc::communicator(K_sm));
+  double entries = 0.0;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    PetscInt n_rows = 0;
+    petsc::check(ISGetSize(parts[p], &n_rows));
+    const auto of_part = std::span(moves).subspan(p * std::size_t(n_m), std::size_t(n_m));
+    entries += double(n_rows) * double(std::ranges::count(of_part, 1));
+  }
+  return n_m == 0 ? 0.0 : entries / (double(n_s) * n_m);
+}
+
+}  // namespace
+
+MemoryForecast::MemoryForecast(const Body& body, const Blocks& K, const Blocks& M,
                                const ReductionOptions& options)
     : options_(options), n_masters_(static_cast<double>(body.masters.size()))
 {
   PetscInt n_local = 0, n = 0;
-  petsc::check(MatGetLocalSize(K_ss, &n_local, nullptr));
-  petsc::check(MatGetSize(K_ss, &n, nullptr));
+  petsc::check(MatGetLocalSize(K.ss, &n_local, nullptr));
+  petsc::check(MatGetSize(K.ss, &n, nullptr));
   n_slaves_ = static_cast<double>(n);
   column_MiB_ = sizeof(double) * double(n_local) / linear::bytes_in_MiB;
   K_MiB_ = own_MiB(body.K);
@@ -67,24 +102,35 @@ MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, Mat M_ss,
   const linear::SolverOptions& solver = options.solver;
   if (solver.lanczos.solver == linear::ModeSolver::block_lanczos &&
       linear::will_solve_for_parts(solver.petsc)) {
-    const bool is_free = has_free_masters(options.basis.method);
-    const Mat K = is_free ? body.K : K_ss, M = is_free ? body.M : M_ss;
-    const std::vector<petsc::IndexSet> parts = linear::decoupled_rows(K, M);
-    if (!parts.empty()) {
-      PetscInt n_largest = 0, n_all = 0;
-      petsc::check(ISGetSize(parts.front(), &n_largest));
-      petsc::check(MatGetSize(K, &n_all, nullptr));
-      largest_part_ = double(n_largest) / n_all;
-      mass_of_parts_ = own_MiB(M);
-    }
+    if (has_free_masters(options.basis.method))
+      take_parts(body.K, body.M, nullptr);
+    else
+      take_parts(K.ss, M.ss, K.sm);
   }
   const bool may_let_go =
       !needs_matrices(options, options.count.value_or(false)) && !lets_matrices_go_at_once(options);
   // Whether a count that nobody asked for is made, and needs K and M, the factor will tell.
   const double likely = options.count ? 1.0 : 0.5;
   let_go_MiB_ = may_let_go ? likely * (K_MiB_ + M_MiB_) : 0.0;
-  columns_at_a_time_ = linear::columns_at_a_time(K_ss);
+  columns_at_a_time_ = linear::columns_at_a_time(K.ss);
   in_memory_ = solver.scratch.empty() ? 1.0 : 0.0;
+}
+
+/// @param K_sm  null where K and M have the masters, each of which moves the part that it is in
+void MemoryForecast::take_parts(Mat K, Mat M, Mat K_sm)
+{
+  const std::vector<petsc::IndexSet> parts = linear::decoupled_rows(K, M);
+  if (parts.empty()) return;
+  PetscInt n_largest = 0, n_all = 0;
+  petsc::check(MatGetSize(K, &n_all, nullptr));
+  for (const petsc::IndexSet& part : parts) {
+    PetscInt n_rows = 0;
+    petsc::check(ISGetSize(part, &n_rows));
+    n_largest = std::max(n_largest, n_rows);
+  }
+  largest_part_ = double(n_largest) / n_all;
+  part_of_Psi_ = K_sm == nullptr ? largest_part_ : share_in_parts(parts, K_sm);
+  mass_of_parts_ = own_MiB(M);
 }
 
 /// Pairs are looked at in blocks: their motions, their residuals, which become half a solution, a
@@ -111,7 +157,7 @@ double MemoryForecast::columns_in_search(double n_modes) const
   constexpr double blocks_of_lanczos = 16.0;
   if (n_modes == 0.0) return 0.0;
   const bool is_free = has_free_masters(options_.basis.method);
-  const double Psi = largest_part_ * n_masters_;
+  const double Psi = part_of_Psi_ * n_masters_;
   const double there = options_.basis.tolerance || is_free ? Psi : 0.0;  // Psi comes first
   const double copied_Psi = largest_part_ < 1.0 && is_free ? largest_part_ * n_masters_ : 0.0;
   const double modes_of_part = largest_part_ < 1.0 ? largest_part_ * n_modes : 0.0;
@@ -123,9 +169,9 @@ double MemoryForecast::beside_MiB(double n_modes) const
 {
   n_modes = std::min(n_modes, n_slaves_);
   const double kept = n_masters_ + n_modes;
-  const double kept_in_memory = has_free_masters(options_.basis.method)
-                                    ? in_memory_ * largest_part_ * n_masters_ + n_modes
-                                    : in_memory_ * largest_part_ * kept;
+  const double Psi = in_memory_ * part_of_Psi_ * n_masters_;
+  const double Phi =
+      has_free_masters(options_.basis.method) ? n_modes : in_memory_ * largest_part_ * n_modes;
   const WorkAfterwards& later = options_.later;
   const double for_each =
       later.columns_for_each_kept + largest_part_ * later.of_a_part_for_each_kept;
@@ -135,18 +181,19 @@ double MemoryForecast::beside_MiB(double n_modes) const
   const double least_work = std::max(columns_in_estimates(n_modes), panels_of_constraint_modes);
   return std::max(column_MiB_ * columns_in_search(n_modes) + mass_of_parts_ +
                       (options_.basis.tolerance ? trials_MiB(kept) : 0.0),
-                  column_MiB_ * kept_in_memory + std::max(column_MiB_ * least_work, later_MiB)) -
+                  column_MiB_ * (Psi + Phi) + std::max(column_MiB_ * least_work, later_MiB)) -
          let_go_MiB_;
 }
 
 linear::SecondFactor MemoryForecast::second(double n_modes) const
 {
   if (!options_.count.value_or(false)) return {};
-  return {.entries = entries_of_counting_factor,
-          // K - sigma M, of it the rows that are counted, and the graphs of their order
-          .beside_MiB = in_memory_ * column_MiB_ * largest_part_ *
-                            (n_masters_ + std::min(n_modes, n_slaves_)) +
-                        3.0 * K_MiB_};
+  return {
+      .entries = entries_of_counting_factor,
+      // K - sigma M, of it the rows that are counted, and the graphs of their order
+      .beside_MiB = in_memory_ * column_MiB_ *
+                        (part_of_Psi_ * n_masters_ + largest_part_ * std::min(n_modes, n_slaves_)) +
+                    3.0 * K_MiB_};
 }
 
 linear::FactorOptions MemoryForecast::at_first(linear::FactorOptions factor) const

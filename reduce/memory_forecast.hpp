@@ -19,7 +19,9 @@ bool lets_matrices_go_at_once(const ReductionOptions& options);
 class MemoryForecast {
  public:
   /// To be called before K_ss is factored and while K and M are there.
-  MemoryForecast(const Body& body, Mat K_ss, Mat M_ss, const ReductionOptions& options);
+  /// @param K, M  their blocks
+  MemoryForecast(const Body& body, const Blocks& K, const Blocks& M,
+                 const ReductionOptions& options);
 
   /// Adds the forecast to the options of the factor: for the number of modes asked for, or, with a
   /// cut-off or a tolerance, for the number that a search begins with.
@@ -36,10 +38,12 @@ class MemoryForecast {
   double columns_in_estimates(double n_modes) const;
   linear::SecondFactor second(double n_modes) const;
 
-  ReductionOptions options_;
   double basis_columns(double n_modes) const;
+  void take_parts(Mat K, Mat M, Mat K_sm);
 
+  ReductionOptions options_;
   double largest_part_ = 1.0;   ///< share of the rows in the largest uncoupled part
+  double part_of_Psi_ = 1.0;    ///< share of its entries in parts that their masters move
   double mass_of_parts_ = 0.0;  ///< MiB
   double n_masters_, n_slaves_, column_MiB_, K_MiB_, M_MiB_, let_go_MiB_;
   double columns_at_a_time_;  ///< of the estimates

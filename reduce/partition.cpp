@@ -11,6 +11,7 @@
 #include "linear/kernels/decoupled_rows.hpp"
 #include "linear/kernels/gather.hpp"
 #include "linear/kernels/own_submatrix.hpp"
+#include "linear/log_event.hpp"
 
 namespace chladni::reduce {
 
@@ -101,8 +102,10 @@ std::vector<int> order_slaves(DofPartition& dofs, Mat K, Mat M)
   };
   const MPI_Comm comm = petsc::communicator(K);
   const std::vector<PetscInt> before = petsc::own_indices(dofs.slaves);
-  const std::vector<int> places =
-      scattered(linear::elimination_order(K, dofs.slaves), before.size(), comm);
+  const std::vector<int> places = [&] {
+    const linear::LogEvent event(linear::Event::ordering);
+    return scattered(linear::elimination_order(K, dofs.slaves), before.size(), comm);
+  }();
   std::vector<Slave> slaves;
   for (std::size_t i = 0; i < before.size(); ++i) slaves.push_back({0, places[i], before[i]});
   int part = 0;

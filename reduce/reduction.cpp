@@ -68,7 +68,7 @@ FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener&
   Blocks M = split(body.M, dofs, options.solver.scratch);
   if (are_ordered) linear::keep_order(K.ss, std::move(order));
   phases.begin("factorization");
-  const MemoryForecast memory(body, K.ss, M.ss, options);
+  const MemoryForecast memory(body, K, M, options);
   linear::SolverOptions solver = options.solver;
   solver.factor = memory.at_first(solver.factor);
   if (lets_matrices_go_at_once(options)) let_go(body.K, body.M);

@@ -34,8 +34,9 @@ print(2e-9 * 2000**3 / best(lambda: a @ a), 8e-9 * b.size / best(lambda: b @ b),
 MEANING = {
     "mesh": "none: Gmsh, no known least work",
     "assembly": "K and M written once to memory never touched, 8 bytes an entry; operations of the elements are not counted",
-    "partition": "K and M read and their blocks written once, 8 bytes an entry",
-    "factorization": "operations of the factor; the order of elimination, searched here too, has no bound",
+    "partition": "K and M read and their blocks written once, 8 bytes an entry; the order of elimination, searched here too, "
+                 "has no bound",
+    "factorization": "operations of the factor",
     "fixed-interface modes": "for each block two passes over its part of the factor, one over that of M_ss and its own columns "
                              "read and written by both; n V^2 / 2 operations, or reading all earlier vectors of the part twice "
                              "for each block, to make them orthogonal once",
@@ -125,7 +126,7 @@ EVENTS = {"CMSFactor": "operations of the factor, dgemm", "CMSSolve": "two passe
 
 def memory_MiB(entry):
     """What has to stand in memory at once: K and M with 12 bytes an entry, the factor, and the vectors of Lanczos, or Psi
-    and Phi of n rows."""
+    and Phi where they are not zero."""
     s = entry["sizes"]
-    columns = max(lanczos(entry)[1] / PARTS, s["masters"] + s["modes"])
+    columns = max(lanczos(entry)[1], s["masters"] + s["modes"]) / PARTS
     return (12 * (s["K_entries"] + s["M_entries"]) + 8 * entry["factor_entries"] + 8 * s["slaves"] * columns) / 2**20

@@ -89,7 +89,7 @@ def shares(runs):
     memory = [f"{r['peak_MiB']:.0f}, {r['bound_MiB']:.0f}, {r['bound_MiB'] / r['peak_MiB']:.2f}" for r in single]
     names = " | ".join(f"{r['disc']}: MiB, bound, share" for r in single)
     return [*lines, "", f"| memory | {names} | bound |", "|---" * (len(single) + 2) + "|",
-            f"| peak | {' | '.join(memory)} | K and M with 12 bytes an entry, the factor, and of half of n rows V, or of n m + k |",
+            f"| peak | {' | '.join(memory)} | K and M with 12 bytes an entry, the factor, and of half of n rows V, or m + k |",
             "", "![Time and memory over degrees of freedom](reduction_scale.png)"]
 
 

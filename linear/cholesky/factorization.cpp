@@ -23,7 +23,7 @@ void check_memory(Mat factor, MatFactorError error, const FactorOptions& options
   const MemoryNeed beside = on_machine(options.beside_MiB), there = on_machine(resident_MiB());
   throw Error(fmt::format(
       "factorize: the factor of K_ss and what comes beside it need {}{:.0f} MiB on one machine "
-      "besides {:.0f} MiB that are taken, where {:.0f} MiB are free{}; use more machines, a "
+      "besides up to {:.0f} MiB that are taken, where {:.0f} MiB are free{}; use more machines, a "
       "coarser mesh, fewer masters or modes, "
       "-cms_scratch or a larger -cms_memory",
       options.is_least ? "at least " : "", need.needed_MiB, there.needed_MiB, need.free_MiB,

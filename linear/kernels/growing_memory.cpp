@@ -65,6 +65,11 @@ bool GrowingMemory::grow(std::size_t n)
   return true;
 }
 
+void GrowingMemory::take_small_pages() const
+{
+  if (folder_.empty() && maps_memory) madvise(values_, n_bytes_, MADV_NOHUGEPAGE);
+}
+
 void GrowingMemory::release()
 {
   const bool is_mapped = !folder_.empty() || maps_memory;

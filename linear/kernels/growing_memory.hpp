@@ -29,6 +29,9 @@ class GrowingMemory {
   /// @return false if there is not enough memory, or no room for the file
   [[nodiscard]] bool grow(std::size_t n);
   double* get() const { return values_; }
+  /// Memory is taken in the smallest pages, so that what is never touched between others is not
+  /// taken with them.
+  void take_small_pages() const;
 
  private:
   bool has_room_on_disk(std::size_t n_bytes);

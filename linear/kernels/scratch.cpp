@@ -48,6 +48,7 @@ petsc::Matrix large_dense(Mat A, PetscInt n_columns, const std::string& folder)
     return small;
   }
   std::unique_ptr<GrowingMemory> memory = room_for(n_bytes, folder, petsc::communicator(A));
+  memory->take_small_pages();
   petsc::Matrix dense;
   petsc::check(MatCreateDense(petsc::communicator(A), n_local, PETSC_DECIDE, n, n_columns,
                               memory->get(), dense.put()));

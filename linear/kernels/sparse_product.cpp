@@ -377,6 +377,8 @@ void SparseProduct::apply(Mat X, Mat Y) const
   for (std::size_t first = 0; first < columns.size();) {
     std::size_t alike = first;
     while (alike < columns.size() && anywhere[columns[alike]] == anywhere[columns[first]]) ++alike;
+    alike =
+        std::max(alike, std::min(first + narrow, columns.size()));  // the least that a pass takes
     PetscInt width = wide;
     if (alike - first <= narrow) width = narrow;
     const std::size_t n = std::min<std::size_t>(std::size_t(width), alike - first);

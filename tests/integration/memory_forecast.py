@@ -65,7 +65,7 @@ def check(chladni, text, what, folder):
     scene.write_text(text)
     command = (chladni, "reduce", scene, "--output", folder)
     _, words = watched(*command, "--", "-cms_memory", 10)
-    needs = re.search(r"need (?:at least )?(\d+) MiB on one machine besides (\d+) MiB", words)
+    needs = re.search(r"need (?:at least )?(\d+) MiB on one machine besides up to (\d+) MiB", words)
     if not needs:
         sys.exit(f"FAILED: not refused\n{words}")
     by_then = float(needs[2])
@@ -79,7 +79,7 @@ def check(chladni, text, what, folder):
 def refusal(chladni, scene, folder, memory):
     """What a reduction has that is refused for its memory, what it needs, MiB, and how many modes were to be tried."""
     _, words = watched(chladni, "reduce", scene, "--output", folder, "--", "-cms_memory", memory)
-    at_first = re.search(r"need at least (\d+) MiB on one machine besides (\d+) MiB", words)
+    at_first = re.search(r"need at least (\d+) MiB on one machine besides up to (\d+) MiB", words)
     later = re.search(r"search goes on to (\d+) modes; .* they need (\d+) MiB", words)
     if at_first:
         return float(at_first[2]), float(at_first[1]), None

@@ -125,14 +125,21 @@ def python(plugin):
 
 
 def memory_of_one_rank(plugin):
-    try:
-        text = plugin.run([PYTHON, Path(__file__).with_name("rank_without_memory.py")], 2,
-                          f"{plugin.load()} -st_ksp_type preonly -st_pc_type cholesky "
-                          "-st_pc_factor_mat_solver_type supernodal", code=1)  # fmt: skip
-    except subprocess.TimeoutExpired:
-        text = "hangs"
+    def solved(little, code):
+        options = ("-st_ksp_type preonly -st_pc_type cholesky -st_pc_factor_mat_solver_type supernodal "
+                   f"-little {little}")  # fmt: skip
+        try:
+            return plugin.run([PYTHON, Path(__file__).with_name("rank_without_memory.py")], 2,
+                              f"{plugin.load()} {options}", code=code)  # fmt: skip
+        except subprocess.TimeoutExpired:
+            return "hangs"
+
+    text = solved(100_000, 1)  # too little for a block, of which the other rank does not know
     yield expect("memory that one rank lacks ends both",
                  "rank 1 has not enough memory" in text and "came to its end" not in text)  # fmt: skip
+    text = solved(1_000_000, 0)  # too little for the eigenvectors, about which all ranks are asked
+    yield expect("or is an error of both",
+                 text.count("no memory for") >= 2 and text.count("came to its end") == 2)  # fmt: skip
 
 
 def class_of_the_compiled_example(plugin):

@@ -1,6 +1,6 @@
-"""Memory that runs out on one of two ranks ends both: run by plugin.py.
+"""Memory that runs out on one of two ranks: run by plugin.py.
 
-When the solution begins, the second rank may take the memory of the basis and little more.
+When the solution begins, the second rank may take the memory of the basis and a little more (-little BYTES).
 """
 
 import resource
@@ -14,7 +14,6 @@ from slepc4py import SLEPc  # noqa: E402
 
 N = 20_000  # rows: what is larger than the heap has left over is asked of the system
 BLOCK = 8  # vectors solved at a time
-LITTLE = 1_000_000  # bytes
 
 
 def chain():
@@ -41,7 +40,7 @@ if PETSc.COMM_WORLD.getRank() == 1:
     pages = int(open("/proc/self/statm", encoding="ascii").read().split()[0])
     _, n_vectors, _ = eps.getDimensions()
     basis = 8 * (N // 2) * (n_vectors + BLOCK)
-    most = pages * resource.getpagesize() + basis + LITTLE
+    most = pages * resource.getpagesize() + basis + PETSc.Options().getInt("little")
     resource.setrlimit(resource.RLIMIT_AS, (most, resource.RLIM_INFINITY))
 try:
     eps.solve()

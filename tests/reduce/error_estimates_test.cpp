@@ -201,6 +201,7 @@ TEST(ToleranceSearch, LacksNoFrequencyOfTheRange)
 TEST(ErrorEstimates, OfSeveralPartsAreThoseOfEachPair)
 {
   constexpr PetscInt n_all = 60;
+  constexpr int n_pairs = 20;
   const auto chains = [](double first, double second, double next) {
     return linear::testing::matrix(n_all, 3, [=](PetscInt i) {
       linear::testing::Row row{{i, i % 2 == 0 ? first : second}};
@@ -214,24 +215,24 @@ TEST(ErrorEstimates, OfSeveralPartsAreThoseOfEachPair)
   const Blocks K = split(K_all, dofs), M = split(M_all, dofs);
   const linear::Factorization K_ss = linear::factorize(K.ss);
   const CraigBamptonBasis Q_CB{.Psi = constraint_modes(K_ss, K),
-                               .modes = fixed_interface_modes(K_ss, M.ss, {.modes = 10})};
+                               .modes = fixed_interface_modes(K_ss, M.ss, {.modes = 24})};
   const ReducedModel model = project(Q_CB, K, M);
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(model.K, model.M);
-  ReducedPairs pairs{.X = eigen.eigenvectors().leftCols(9), .lambda = {}};
+  ReducedPairs pairs{.X = eigen.eigenvectors().leftCols(n_pairs), .lambda = {}};
   pairs.X = (pairs.X.array().abs() < 1e-9).select(0.0, pairs.X);  // round-off of the other chain
-  pairs.lambda.assign(eigen.eigenvalues().begin(), eigen.eigenvalues().begin() + 9);
+  pairs.lambda.assign(eigen.eigenvalues().begin(), eigen.eigenvalues().begin() + n_pairs);
   const int n_first = static_cast<int>((pairs.X.row(0).array() != 0.0).count());
-  ASSERT_GT(n_first, 2);
-  ASSERT_LT(n_first, 7);
+  ASSERT_GE(n_first, 8);  // fewer share a block
+  ASSERT_LE(n_first, n_pairs - 8);
   const Condensation system{.K_ss = K_ss, .Q_CB = Q_CB, .K = K, .M = M};
   const ErrorEstimates all = error_estimates(system, pairs, Purpose::bounds);
-  for (int k = 0; k < 9; ++k) {
+  for (int k = 0; k < n_pairs; ++k) {
     const ErrorEstimates one =
         error_estimates(system, {.X = pairs.X.col(k), .lambda = {pairs.lambda[k]}});
     EXPECT_NEAR(all.eta2[k], one.eta2[0], 1e-12 * one.eta2[0] + 1e-16) << k;
     EXPECT_NEAR(all.rounding[k], one.rounding[0], 1e-13) << k;
     EXPECT_NEAR(all.inner_products(k, k), one.eta2[0], 1e-12 * one.eta2[0] + 1e-16) << k;
-    for (int j = 0; j < 9; ++j) {
+    for (int j = 0; j < n_pairs; ++j) {
       const bool is_of_other = (pairs.X(0, j) != 0.0) != (pairs.X(0, k) != 0.0);
       const double least = is_of_other ? 1e-18 : 1.0;
       EXPECT_LT(std::abs(all.inner_products(j, k)), least);
