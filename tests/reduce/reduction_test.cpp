@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <utility>
 
+#include "linear/kernels/dense_matrices.hpp"
 #include "reduce/held_masters.hpp"
-#include "tests/linear/chain.hpp"
+#include "reduce/memory_forecast.hpp"
+#include "tests/linear/matrices.hpp"
 
 namespace chladni::reduce {
 namespace {
@@ -51,6 +55,40 @@ TEST(Reduction, CertifiesTheModesUnderASupport)
     EXPECT_GE(error, -1e-12) << i;
     EXPECT_LE(error, found.bounds[i] + 1e-13) << i;
   }
+}
+
+/// What a reduction to masters needs beside its factor where two chains hang together through
+/// masters, of which each touches one chain, or both.
+double forecast_MiB(int chains_of_a_master)
+{
+  constexpr PetscInt n_masters = 10, n_all = 2000 + n_masters;
+  petsc::Matrix K = linear::testing::matrix(n_all, 14, [&](PetscInt i) {
+    linear::testing::Row row{{i, 3.0}};
+    const auto couple = [&](PetscInt a, PetscInt b) {  // row i is one of them
+      if (i == a) row.emplace_back(b, -1.0);
+      if (i == b) row.emplace_back(a, -1.0);
+    };
+    if (i - 2 >= n_masters) row.emplace_back(i - 2, -1.0);
+    if (i >= n_masters && i + 2 < n_all) row.emplace_back(i + 2, -1.0);
+    for (PetscInt m = 0; m < n_masters; ++m)
+      for (int c = 0; c < chains_of_a_master; ++c) couple(m, n_masters + 20 * m + (m + c) % 2);
+    return row;
+  });
+  petsc::Matrix M = linear::testing::diagonal(n_all, [](PetscInt) { return 1.0; });
+  Body body{.K = std::move(K), .M = std::move(M), .masters = {}};
+  for (PetscInt m = 0; m < n_masters; ++m) body.masters.push_back(m);
+  const DofPartition dofs = partition(body.K, linear::testing::master_set(body.K, body.masters));
+  const Blocks K_blocks = split(body.K, dofs), M_blocks = split(body.M, dofs);
+  const ReductionOptions options{.basis = {.method = Method::guyan}, .count = false};
+  return MemoryForecast(body, K_blocks, M_blocks, options).at_first({}).beside_MiB;
+}
+
+TEST(MemoryForecast, CountsConstraintModesWhereTheirMastersMoveSomething)
+{
+  constexpr double half_of_all_MiB = 0.5 * 10 * 2000 * 8.0 / 1048576.0;
+  std::array<double, 2> both_and_one{forecast_MiB(2), forecast_MiB(1)};
+  linear::sum_over_ranks(both_and_one, PETSC_COMM_WORLD);
+  EXPECT_NEAR(both_and_one[0] - both_and_one[1], half_of_all_MiB, 0.02 * half_of_all_MiB);
 }
 
 TEST(Reduction, CountsWhereThatIsCheapAndNowhereElse)
