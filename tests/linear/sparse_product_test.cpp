@@ -128,7 +128,7 @@ TEST(PanelColumns, ComeBackFromAPanel)
   std::vector<int> rows, slots(n);
   for (int i = 0; i < n; ++i) rows.push_back(i < 20 ? i : i + 3);  // not all in line
   std::iota(slots.begin(), slots.end(), 0);
-  std::ranges::rotate(slots, slots.begin() + 11);
+  std::rotate(slots.begin(), slots.begin() + 11, slots.end());
   for (const PetscInt width : {8, 16}) {
     for (const int n_columns : {1, 7, 8, 11, 16}) {
       if (n_columns > width) continue;
