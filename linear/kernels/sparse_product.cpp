@@ -5,11 +5,10 @@
 #include <numeric>
 #include <utility>
 
-#include "common/fitting_instructions.hpp"
 #include "common/petsc_attached.hpp"
 #include "linear/kernels/as_aij.hpp"
+#include "linear/kernels/csr_rows.hpp"
 #include "linear/kernels/gather.hpp"
-#include "linear/kernels/lines.hpp"
 #include "linear/kernels/panel_columns.hpp"
 #include "linear/log_event.hpp"
 
@@ -17,158 +16,9 @@ namespace chladni::linear {
 
 namespace {
 
-constexpr PetscInt narrow = 8;  // columns of a panel: a cache line
-constexpr PetscInt wide = 16;
-
-struct Csr {
-  const PetscInt* starts;
-  const PetscInt* columns;
-  const PetscScalar* values;
-  std::span<const PetscInt> row(PetscInt i) const
-  {
-    return {columns + starts[i], columns + starts[i + 1]};
-  }
-};
-
-/// Whether a product is added to what is there.
-enum class Start { zero, there };
-
-/// `alike` rows of Y <- A panel, from row i on, which have the same columns: what they multiply is
-/// read once.
-template <PetscInt width, int alike, Start start>
-[[gnu::always_inline]] inline void multiply_rows(const Csr& A, PetscInt i, const double* panel,
-                                                 double* Y)
-{
-  constexpr int n_lines = width / line_numbers;
-  // NOLINTBEGIN(modernize-avoid-c-arrays): sums that stay in registers
-  Line sum[alike][n_lines];
-  const PetscScalar* values[alike];
-  // NOLINTEND(modernize-avoid-c-arrays)
-  double* y = Y + std::size_t(i) * width;
-  for (int r = 0; r < alike; ++r) {
-    values[r] = A.values + A.starts[i + r];
-    for (int l = 0; l < n_lines; ++l)
-      if constexpr (start == Start::there)
-        load(y + r * width + l * line_numbers, sum[r][l]);
-      else
-        sum[r][l] = Line{};
-  }
-  const PetscInt* columns = A.columns + A.starts[i];
-  const PetscInt n = A.starts[i + 1] - A.starts[i];
-  for (PetscInt k = 0; k < n; ++k) {
-    const double* from = panel + std::size_t(columns[k]) * width;
-    for (int l = 0; l < n_lines; ++l) {
-      Line x;
-      load(from + l * line_numbers, x);
-      for (int r = 0; r < alike; ++r) sum[r][l] += values[r][k] * x;
-    }
-  }
-  for (int r = 0; r < alike; ++r)
-    for (int l = 0; l < n_lines; ++l) store(sum[r][l], y + r * width + l * line_numbers);
-}
-
-constexpr int most_alike = 3;  // rows at a time: the sums of more have no registers
-
-/// Y <- A panel in some rows, Y row by row like the panel. The processor asks for what it needs of
-/// the panel soon enough by itself: asking ahead for it took longer.
-/// @param n_alike  [rows of A] how many from this one on have the same columns, up to `most_alike`
-template <PetscInt width>
-[[gnu::always_inline]] inline void multiply_panel(const Csr& A, const char* n_alike,
-                                                  const RowSpan& rows, const double* panel,
-                                                  double* Y)
-{
-  for (PetscInt i = rows.first; i < rows.last;) {
-    const PetscInt alike = std::min<PetscInt>(n_alike[i], rows.last - i);
-    if (alike >= 3)
-      multiply_rows<width, 3, Start::zero>(A, i, panel, Y);
-    else if (alike == 2)
-      multiply_rows<width, 2, Start::zero>(A, i, panel, Y);
-    else
-      multiply_rows<width, 1, Start::zero>(A, i, panel, Y);
-    i += alike;
-  }
-}
-
-CHLADNI_FITTING_INSTRUCTIONS
-void multiply_narrow(const Csr& A, const char* n_alike, const RowSpan& rows, const double* panel,
-                     double* Y)
-{
-  multiply_panel<narrow>(A, n_alike, rows, panel, Y);
-}
-
-CHLADNI_FITTING_INSTRUCTIONS
-void multiply_wide(const Csr& A, const char* n_alike, const RowSpan& rows, const double* panel,
-                   double* Y)
-{
-  multiply_panel<wide>(A, n_alike, rows, panel, Y);
-}
-
-/// Y <- Y + A panel.
-CHLADNI_FITTING_INSTRUCTIONS
-void add_narrow(const Csr& A, const RowSpan& rows, const double* panel, double* Y)
-{
-  for (PetscInt i = rows.first; i < rows.last; ++i)
-    multiply_rows<narrow, 1, Start::there>(A, i, panel, Y);
-}
-
-CHLADNI_FITTING_INSTRUCTIONS
-void add_wide(const Csr& A, const RowSpan& rows, const double* panel, double* Y)
-{
-  for (PetscInt i = rows.first; i < rows.last; ++i)
-    multiply_rows<wide, 1, Start::there>(A, i, panel, Y);
-}
-
 bool are_zero(const double* first, const double* last)
 {
   return std::all_of(first, last, [](double x) { return x == 0.0; });
-}
-
-/// Rows at which a square matrix may be cut: no entry joins those before with the others.
-std::vector<char> free_cuts(const Csr& A, PetscInt n)
-{
-  std::vector<char> is_free(std::size_t(n), 0);
-  std::vector<PetscInt> nearest(std::size_t(n), n);  // column of each row
-  PetscInt farthest = 0;
-  for (PetscInt i = 0; i < n; ++i) {
-    is_free[std::size_t(i)] = farthest <= i ? 1 : 0;
-    const std::span<const PetscInt> row = A.row(i);
-    if (row.empty()) continue;
-    const auto [least, most] = std::ranges::minmax(row);
-    farthest = std::max(farthest, most + 1);
-    nearest[std::size_t(i)] = least;
-  }
-  for (PetscInt i = n, least = n; i-- > 0;) {
-    least = std::min(least, nearest[std::size_t(i)]);
-    if (least < i) is_free[std::size_t(i)] = 0;
-  }
-  return is_free;
-}
-
-/// Cuts that leave at least a sixteenth of the rows in each piece.
-std::vector<PetscInt> cuts(const Csr& A, PetscInt n)
-{
-  constexpr PetscInt most_pieces = 16;  // bits of a mask are enough for them
-  std::vector<PetscInt> rows;
-  const PetscInt least = std::max<PetscInt>(n / most_pieces, 1);
-  const std::vector<char> is_free = free_cuts(A, n);
-  for (PetscInt i = least, last = 0; i + least <= n; ++i) {
-    if (is_free[std::size_t(i)] == 0 || i - last < least) continue;
-    rows.push_back(i);
-    last = i;
-  }
-  return rows;
-}
-
-/// As `multiply_panel` takes it.
-std::vector<char> numbers_alike(const Csr& A, PetscInt n)
-{
-  std::vector<char> n_alike(std::size_t(n), 1);
-  for (PetscInt i = n - 1; i-- > 0;) {
-    const char next = n_alike[std::size_t(i) + 1];
-    if (std::ranges::equal(A.row(i), A.row(i + 1)))
-      n_alike[std::size_t(i)] = static_cast<char>(next % most_alike + 1);
-  }
-  return n_alike;
 }
 
 }  // namespace
@@ -238,8 +88,8 @@ SparseProduct::SparseProduct(Mat A) : A_(as_aij(A)), comm_(petsc::communicator(A
   } else {
     own_ = borrow(A_);
   }
-  panel_ = aligned_numbers((std::size_t(n_columns_) + n_ghosts_) * wide);
-  product_ = aligned_numbers(std::size_t(n_rows_) * wide);
+  panel_ = aligned_numbers((std::size_t(n_columns_) + n_ghosts_) * wide_panel);
+  product_ = aligned_numbers(std::size_t(n_rows_) * wide_panel);
 }
 
 SparseProduct::~SparseProduct()
@@ -267,7 +117,7 @@ void SparseProduct::plan_exchange(const Ghosts& ghosts)
   MPI_Alltoallv(ghosts.columns, receive_counts_.data(), receive_at.data(), MPIU_INT,
                 send_rows_.data(), send_counts_.data(), send_at.data(), MPIU_INT, comm_);
   for (int& row : send_rows_) row -= ghosts.first[rank];
-  outbox_.resize(send_rows_.size() * wide);
+  outbox_.resize(send_rows_.size() * wide_panel);
 }
 
 /// The rows of the ghosts behind the own ones.
@@ -318,8 +168,8 @@ void SparseProduct::multiply(const LocalRows& X, const Panel& panel, double* Y, 
   const Csr own{own_.starts, own_.columns, own_.values};
   const Csr other{other_.starts, other_.columns, other_.values};
   const bool is_distributed = !send_counts_.empty();
-  const auto multiply = panel.width == wide ? multiply_wide : multiply_narrow;
-  const auto add = panel.width == wide ? add_wide : add_narrow;
+  const auto multiply = panel.width == wide_panel ? multiply_wide : multiply_narrow;
+  const auto add = panel.width == wide_panel ? add_wide : add_narrow;
   const char* n_alike = pattern_of_own().n_alike.data();
   const auto at = [&](const AlignedNumbers& values, PetscInt row) {
     return values.get() + std::size_t(row) * std::size_t(panel.width);
@@ -361,7 +211,7 @@ void SparseProduct::apply(Mat X, Mat Y) const
   if (segments_.empty()) segments_ = segments();
   const std::vector<Mask> here = masks(x);
   std::vector<Mask> anywhere = here;
-  if (x.n_cols() <= narrow) {  // one panel
+  if (x.n_cols() <= narrow_panel) {  // one panel
     std::ranges::fill(anywhere, Mask{0});
   } else if (!send_counts_.empty()) {
     MPI_Allreduce(MPI_IN_PLACE, anywhere.data(), static_cast<int>(anywhere.size()), MPI_UINT32_T,
@@ -377,10 +227,10 @@ void SparseProduct::apply(Mat X, Mat Y) const
   for (std::size_t first = 0; first < columns.size();) {
     std::size_t alike = first;
     while (alike < columns.size() && anywhere[columns[alike]] == anywhere[columns[first]]) ++alike;
-    alike =
-        std::max(alike, std::min(first + narrow, columns.size()));  // the least that a pass takes
-    PetscInt width = wide;
-    if (alike - first <= narrow) width = narrow;
+    alike = std::max(
+        alike, std::min(first + narrow_panel, columns.size()));  // the least that a pass takes
+    PetscInt width = wide_panel;
+    if (alike - first <= narrow_panel) width = narrow_panel;
     const std::size_t n = std::min<std::size_t>(std::size_t(width), alike - first);
     Panel panel{.columns = std::span(columns).subspan(first, n), .width = width, .is_active = 0};
     for (const PetscInt j : panel.columns) panel.is_active |= here[std::size_t(j)];

@@ -6,15 +6,10 @@
 
 #include "common/petsc.hpp"
 #include "linear/kernels/aligned_numbers.hpp"
+#include "linear/kernels/csr_rows.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 
 namespace chladni::linear {
-
-/// Rows first to last - 1 of this rank.
-struct RowSpan {
-  PetscInt first, last;
-  PetscInt size() const { return last - first; }
-};
 
 /// Products of a sparse matrix with blocks of columns, sixteen or eight columns per pass over the
 /// matrix. The product is limited by memory traffic; the matrix is read a quarter as often as by
