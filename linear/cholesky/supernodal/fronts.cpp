@@ -1,7 +1,6 @@
 #include "linear/cholesky/supernodal/fronts.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "linear/cholesky/supernodal/dense_elimination.hpp"
 
@@ -10,8 +9,8 @@ namespace chladni::linear {
 Fronts::Fronts(const AssemblyTree& tree, const MatrixRows& A)
     : tree_(tree),
       A_(A),
+      places_(tree),
       children_(tree.n_supernodes()),
-      place_below_(tree.row.size()),
       left_over_(tree.n_supernodes())
 {
   for (int s = 0; s < tree.n_supernodes(); ++s)
@@ -26,38 +25,12 @@ double* Fronts::left_over(int s)
   return left_over_[s].get();
 }
 
-std::size_t Fronts::in_front(int position, int s) const
-{
-  const int column = position - tree_.first_column[s];
-  return column < tree_.n_columns(s) ? column : tree_.n_columns(s) + place_below_[position];
-}
-
-bool Fronts::has_place(int position, int s) const
-{
-  if (position < tree_.first_column[s + 1]) return true;
-  const std::span<const int> below = tree_.below(s);
-  const int place = place_below_[position];
-  return std::cmp_less(place, below.size()) && below[place] == position;
-}
-
 void Fronts::add_entries(int s)
 {
   const std::size_t front = tree_.n_columns(s) + tree_.below(s).size();
-  for (int p = tree_.first_column[s]; p < tree_.first_column[s + 1]; ++p) {
-    double* column = columns_.data() + (p - tree_.first_column[s]) * front;
-    const int row = A_.place[tree_.row[p]];
-    for (PetscInt k = A_.starts[row]; k < A_.starts[row + 1]; ++k) {
-      const int q = tree_.position[A_.columns[k]];
-      if (q < p) continue;
-      if (!has_place(q, s)) {
-        throw Error(fmt::format(
-            "supernodal: row {} has an entry in column {} that the matrix of the symbolic "
-            "factorisation had not; call MatCholeskyFactorSymbolic for each new pattern",
-            tree_.row[p], A_.columns[k]));
-      }
-      column[in_front(q, s)] += A_.values[k];
-    }
-  }
+  places_.for_entries(A_, [&](int row, int column, double value) {
+    columns_[std::size_t(row) + std::size_t(column) * front] += value;
+  });
 }
 
 void Fronts::add_left_over(int child, int s)
@@ -65,7 +38,7 @@ void Fronts::add_left_over(int child, int s)
   const std::span<const int> rows = tree_.below(child);
   const std::size_t m = rows.size(), w = tree_.n_columns(s), n_below = tree_.below(s).size();
   std::vector<std::size_t> place(m);
-  for (std::size_t i = 0; i < m; ++i) place[i] = in_front(rows[i], s);
+  for (std::size_t i = 0; i < m; ++i) place[i] = places_.place(rows[i]);
   for (std::size_t j = 0; j < m; ++j) {
     const double* from = left_over_[child].get() + j * m;
     double* to = place[j] < w ? columns_.data() + place[j] * (w + n_below)
@@ -78,7 +51,7 @@ void Fronts::add_left_over(int child, int s)
 int Fronts::eliminate(int s)
 {
   const std::span<const int> below = tree_.below(s);
-  for (std::size_t i = 0; i < below.size(); ++i) place_below_[below[i]] = static_cast<int>(i);
+  places_.enter(s);
   const int w = tree_.n_columns(s), m = static_cast<int>(below.size());
   const std::size_t n_numbers = std::size_t(w + m) * w;
   columns_.assign(n_numbers, 0.0);

@@ -3,18 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "linear/cholesky/supernodal/assembly_tree.hpp"
+#include "linear/cholesky/supernodal/front_places.hpp"
 
 namespace chladni::linear {
-
-/// Rows of a symmetric matrix in CSR form with global columns.
-struct MatrixRows {
-  const PetscInt* starts;
-  const PetscInt* columns;
-  const PetscScalar* values;
-  /// [n] place of each row of the matrix in these arrays; -1: not on this rank
-  std::vector<int> place;
-};
 
 /// Multifrontal elimination A = L D L^T.
 /// Source: Duff and Reid, ACM TOMS 9 (1983) 302.
@@ -32,19 +23,18 @@ class Fronts {
   /// The update matrix of s for its parent: lower triangle [n_below x n_below], by columns. It
   /// exists from the elimination of s, or from this call on, until the elimination of its parent.
   double* left_over(int s);
+  void forget_left_over(int s) { left_over_[s].reset(); }
   const std::vector<int>& children(int s) const { return children_[s]; }
 
  private:
   void add_entries(int s);
   void add_left_over(int child, int s);
-  std::size_t in_front(int position, int s) const;
-  bool has_place(int position, int s) const;
 
   const AssemblyTree& tree_;
   const MatrixRows& A_;
+  FrontPlaces places_;
   std::vector<std::vector<int>> children_;
-  std::vector<int> place_below_;                  ///< [n] for the rows below the current supernode
-  std::vector<double> columns_, scaled_columns_;  ///< L with D, L D
+  std::vector<double> columns_, scaled_columns_;      ///< L with D, L D
   std::vector<std::unique_ptr<double[]>> left_over_;  // NOLINT(modernize-avoid-c-arrays)
 };
 

@@ -1,6 +1,7 @@
 #include "linear/cholesky/supernodal/subtrees.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -9,11 +10,14 @@ namespace chladni::linear {
 
 namespace {
 
-/// Most of the time goes into some hundred solutions.
-double work(const AssemblyTree& tree, int s)
+/// Most of the time goes into some hundred solutions. They are made in blocks, in each of which the
+/// ranks that share a supernode wait for each other twice.
+double work(const AssemblyTree& tree, int s, int n_ranks = 1)
 {
   constexpr double solved_columns = 500.0;
-  return tree.n_operations(s) + 4.0 * solved_columns * tree.n_entries(s);
+  constexpr double operations_while_waiting = 2e6;  // in all blocks, for each doubling of the ranks
+  return operations_of_rank(tree, s, n_ranks) + 4.0 * solved_columns * tree.n_entries(s) / n_ranks +
+         operations_while_waiting * std::log2(n_ranks);
 }
 
 /// What hangs together in an assembly tree, and the work in each subtree.
@@ -115,7 +119,7 @@ void share(std::vector<int> roots, const Subtrees& all, const RankGroup& group,
       best_above = above;
     }
     const int split = roots.front();
-    common += work(all.tree, split);
+    common += work(all.tree, split, group.size());
     above.push_back(split);
     roots.erase(roots.begin());
     roots.insert(roots.end(), all.children[split].begin(), all.children[split].end());
@@ -127,6 +131,14 @@ void share(std::vector<int> roots, const Subtrees& all, const RankGroup& group,
 }
 
 }  // namespace
+
+double operations_of_rank(const AssemblyTree& tree, int s, int n_ranks)
+{
+  if (n_ranks == 1) return tree.n_operations(s);
+  const double w = tree.n_columns(s);
+  const auto m = double(tree.below(s).size());
+  return (tree.n_operations(s) + w * w * w / 3.0 + w * w * m) / n_ranks;
+}
 
 std::vector<RankGroup> groups_of(int rank, int n_ranks)
 {

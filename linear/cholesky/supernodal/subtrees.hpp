@@ -19,11 +19,14 @@ struct RankGroup {
 /// them with this rank, and so on.
 std::vector<RankGroup> groups_of(int rank, int n_ranks);
 
+/// Operations of a rank that eliminates s with so many others: its share, and with others the
+/// inversion of the triangle.
+double operations_of_rank(const AssemblyTree& tree, int s, int n_ranks);
+
 /// Distributes the supernodes among ranks. The separator that divides a tree into two subtrees, one
-/// for each half of the ranks, is eliminated by all of them, and so on down to whole subtrees of
-/// single ranks. A front is repeated only on the ranks whose subtrees are below it. Each tree with
-/// a large share of the work is distributed separately, so that it can be solved without the
-/// others.
+/// for each half of the ranks, is eliminated by all of them together, and so on down to whole
+/// subtrees of single ranks. Each tree with a large share of the work is distributed separately, so
+/// that it can be solved without the others.
 /// @return [n_supernodes] one rank, or a group of `groups_of`; that of a child lies within its
 ///         parent's
 /// Source: George, Liu and Ng, Parallel Computing 10 (1989) 287.

@@ -21,7 +21,7 @@ SupernodalFactor::Eliminated SupernodalFactor::eliminate(Mat A, const Visit& vis
   Fronts fronts(tree_, rows.rows());
   int n_negative = 0;
   for (const bool is_shared : {false, true}) {
-    const int n = is_shared ? eliminate_shared(fronts, visit)
+    const int n = is_shared ? eliminate_shared(fronts, rows.rows(), visit)
                             : on_all_ranks(comm_, [&] { return eliminate_own(fronts, visit); });
     int n_failed = n < 0 ? 1 : 0;
     MPI_Allreduce(MPI_IN_PLACE, &n_failed, 1, MPI_INT, MPI_SUM, comm_);
@@ -40,63 +40,42 @@ int SupernodalFactor::eliminate_own(Fronts& fronts, const Visit& visit) const
     const int n = fronts.eliminate(s);
     if (n < 0) return -1;
     n_negative += n;
-    visit(fronts, s);
+    visit.own(fronts, s);
   }
   return n_negative;
 }
 
-/// What the children that belong to some of the ranks of a group left on the first of them.
-void SupernodalFactor::take_left_overs(Fronts& fronts, int s) const
-{
-  const int level = level_of(s);
-  std::vector<double> triangle;
-  for (const int child : fronts.children(s)) {
-    if (group_[child] == group_[s]) continue;
-    const std::size_t n = tree_.below(child).size();
-    triangle.resize(n * (n + 1) / 2);
-    double* values = fronts.left_over(child);
-    const auto for_columns = [&](const auto& move) {
-      for (std::size_t j = 0, at = 0; j < n; at += n - j++) move(values + j * (n + 1), at, n - j);
-    };
-    const int from = group_[child].first;
-    if (rank_ == from) {
-      for_columns([&](const double* column, std::size_t at, std::size_t length) {
-        std::copy_n(column, length, triangle.begin() + std::ptrdiff_t(at));
-      });
-    }
-    broadcast_numbers(triangle, from - group_[s].first, group_comms_[level]);
-    if (rank_ == from) continue;
-    for_columns([&](double* column, std::size_t at, std::size_t length) {
-      std::copy_n(triangle.begin() + std::ptrdiff_t(at), length, column);
-    });
-  }
-}
-
-/// By all ranks of a group alike. Where one fails the others know nothing of it: it goes on with
-/// what it has, so that nobody waits for ever.
+/// By the ranks of each group together. Where one fails those of its groups do nothing more, and
+/// nobody waits for ever.
 /// @return negative pivots of those groups whose first rank this is, -1 where a pivot vanishes
-int SupernodalFactor::eliminate_shared(Fronts& fronts, const Visit& visit) const
+int SupernodalFactor::eliminate_shared(Fronts& fronts, const MatrixRows& A,
+                                       const Visit& visit) const
 {
-  int n_negative = 0;
-  bool has_failed = false;
+  SharedFronts shared(tree_, group_, fronts, rank_);
+  int n_negative = 0, has_failed = 0;
   std::exception_ptr complaint;
-  for (const std::vector<int>& supernodes : whole_.supernodes.shared) {
-    for (const int s : supernodes) {
-      take_left_overs(fronts, s);
-      int n = -1;
+  for (std::size_t level = 0; level < groups_.size(); ++level) {
+    for (const int s : whole_.supernodes.shared[level]) {
       try {
-        n = fronts.eliminate(s);
+        if (has_failed == 0) shared.prepare(s, A);
       } catch (...) {
         complaint = std::current_exception();
+        has_failed = 1;
       }
-      has_failed = has_failed || n < 0;
-      if (n > 0 && is_counted_here(s)) n_negative += n;
-      if (n >= 0) visit(fronts, s);
+      MPI_Allreduce(MPI_IN_PLACE, &has_failed, 1, MPI_INT, MPI_MAX, group_comms_[level]);
+      if (has_failed != 0) continue;
+      const int n = shared.eliminate(s, group_comms_[level]);
+      if (n < 0) {
+        has_failed = 1;
+        continue;
+      }
+      if (is_counted_here(s)) n_negative += n;
+      visit.shared(shared.front(), s);
     }
   }
   return on_all_ranks(comm_, [&] {
     if (complaint) std::rethrow_exception(complaint);
-    return has_failed ? -1 : n_negative;
+    return has_failed != 0 ? -1 : n_negative;
   });
 }
 
@@ -115,14 +94,34 @@ void SupernodalFactor::add_squares(const Fronts& fronts, int s, std::vector<doub
   }
 }
 
+/// The same for the rows of this rank.
+void SupernodalFactor::add_own_squares(const DealtFront& front, int s,
+                                       std::vector<double>& sums) const
+{
+  const std::span<const int> below = tree_.below(s);
+  const int w = tree_.n_columns(s), first = tree_.first_column[s];
+  const auto n_own = std::size_t(front.n_own());
+  const double* L = front.L;
+  front.rows.for_rows(front.place, 0, front.rows.n_rows(), [&](int row) {
+    double& sum = sums[tree_.row[row < w ? first + row : below[row - w]]];
+    for (int j = 0; j < std::min(row, w); ++j) {
+      const double l = L[std::size_t(j) * n_own];
+      sum += l * l * std::abs(front.D[j]);
+    }
+    if (row < w) sum += std::abs(front.D[row]);
+    ++L;
+  });
+}
+
 PivotSigns SupernodalFactor::pivot_signs(Mat A, Vec size_of_diagonal) const
 {
   const LogEvent event(Event::factorization);
   constexpr double infinite = std::numeric_limits<double>::infinity();
   std::vector<double> sums(tree_.row.size(), 0.0);
-  const Eliminated all = eliminate(A, [&](const Fronts& fronts, int s) {
-    if (is_counted_here(s)) add_squares(fronts, s, sums);
-  });
+  const Visit add{
+      .own = [&](const Fronts& fronts, int s) { add_squares(fronts, s, sums); },
+      .shared = [&](const DealtFront& front, int s) { add_own_squares(front, s, sums); }};
+  const Eliminated all = eliminate(A, add);
   if (all.error != MAT_FACTOR_NOERROR) return {.n_negative = 0, .growth = infinite};
   sum_over_ranks(sums, comm_);
   PetscInt first = 0, last = 0;

@@ -55,6 +55,11 @@ int SupernodalFactor::level_of(int s) const
   return static_cast<int>(std::ranges::find(groups_, group_[s]) - groups_.begin());
 }
 
+DealtRows SupernodalFactor::dealt_rows(int s) const
+{
+  return {tree_.n_columns(s), static_cast<int>(tree_.below(s).size()), group_[s]};
+}
+
 void SupernodalFactor::analyze(Mat A)
 {
   PetscInt n = 0;
@@ -103,7 +108,9 @@ void SupernodalFactor::number_slots()
   const auto number = [&](const std::vector<int>& supernodes) {
     for (const int s : supernodes) {
       for (int p = tree_.first_column[s]; p < tree_.first_column[s + 1]; ++p) slot_[p] = n_slots_++;
-      tile_starts_[s + 1] = tiled_size(tree_.n_columns(s), static_cast<int>(tree_.below(s).size()));
+      const auto n_below = static_cast<int>(tree_.below(s).size());
+      tile_starts_[s + 1] = is_shared(s) ? shared_size(dealt_rows(s), rank_ - group_[s].first)
+                                         : tiled_size(tree_.n_columns(s), n_below);
     }
   };
   number(whole_.supernodes.own);
@@ -122,8 +129,8 @@ FactorSize SupernodalFactor::size() const
     size.operations += tree_.n_operations(s);
     size.entries += tree_.n_entries(s);
     for (int rank = group_[s].first; rank < group_[s].last; ++rank) {
-      operations[rank] += tree_.n_operations(s);
-      entries[rank] += tree_.n_entries(s);
+      operations[rank] += operations_of_rank(tree_, s, group_[s].size());
+      entries[rank] += tree_.n_entries(s) / group_[s].size();
     }
   }
   size.operations_of_rank = std::ranges::max(operations);
@@ -133,18 +140,26 @@ FactorSize SupernodalFactor::size() const
 
 CholeskyFactor::Memory SupernodalFactor::forecast() const
 {
-  std::vector<int> all = whole_.supernodes.own;
-  for (const std::vector<int>& shared : whole_.supernodes.shared)
-    all.insert(all.end(), shared.begin(), shared.end());
-  double front = 0.0;
-  for (const int s : all) {
+  double front = 0.0, shared_front = 0.0, left_over = 0.0;
+  for (const int s : whole_.supernodes.own) {
     const double w = tree_.n_columns(s);
-    front = std::max(front, w * (w + double(tree_.below(s).size())));
+    front = std::max(front, 2.0 * w * (w + double(tree_.below(s).size())));  // L and L D
+  }
+  for (const std::vector<int>& supernodes : whole_.supernodes.shared) {
+    for (const int s : supernodes) {
+      const double w = tree_.n_columns(s), n = double(group_[s].size());
+      const auto m = double(tree_.below(s).size());
+      const int place = rank_ - group_[s].first;
+      shared_front = std::max(
+          shared_front, w * (w + m) / n + w * w + double(size_of_workspace(dealt_rows(s), place)));
+      left_over = std::max(left_over, 2.0 * m * m / n);  // and what is sent
+    }
   }
   constexpr double numbers_in_MiB = bytes_in_MiB / sizeof(double);
   const auto kept = double(tile_starts_.back());
-  const double work = 2.0 * front + peak_of_left_overs(tree_, all);  // L and L D of the front
-  const double gathered = n_gathered_ * (1.0 + 0.5);                 // with its index
+  const double own = front + peak_of_left_overs(tree_, whole_.supernodes.own);
+  const double work = std::max(own, front + shared_front + 2.0 * left_over);
+  const double gathered = n_gathered_ * (1.0 + 0.5);  // with its index
   return {.factorization_MiB = (kept + work + gathered) / numbers_in_MiB,
           .factor_MiB = (kept + double(n_slots_) * panel_width) / numbers_in_MiB,
           .entries_MiB = kept / numbers_in_MiB};
@@ -167,7 +182,18 @@ void SupernodalFactor::factorize(Mat A)
   if (!tiles_) tiles_ = aligned_numbers(tile_starts_.back());
   error_ = MAT_FACTOR_NUMERIC_ZEROPIVOT;
   n_negative_ = 0;
-  const Eliminated all = eliminate(A, [this](const Fronts& fronts, int s) { keep(fronts, s); });
+  const Visit keep{
+      .own =
+          [this](const Fronts& fronts, int s) {
+            store_tiles(fronts.columns(), tree_.n_columns(s),
+                        static_cast<int>(tree_.below(s).size()), tiles_.get() + tile_starts_[s]);
+          },
+      .shared =
+          [this](const DealtFront& front, int s) {
+            divide_by_triangle(front);
+            store_shared(front.rows, front.place, front.L, front.D, tiles_.get() + tile_starts_[s]);
+          }};
+  const Eliminated all = eliminate(A, keep);
   error_ = all.error;
   n_negative_ = all.n_negative;
 }
@@ -177,12 +203,6 @@ bool SupernodalFactor::is_reliable() const
 {
   if (error_ == MAT_FACTOR_NUMERIC_ZEROPIVOT) return false;
   return n_negative_ == 0 || std::cmp_equal(n_negative_, tree_.row.size());
-}
-
-void SupernodalFactor::keep(const Fronts& fronts, int s)
-{
-  store_tiles(fronts.columns(), tree_.n_columns(s), static_cast<int>(tree_.below(s).size()),
-              tiles_.get() + tile_starts_[s]);
 }
 
 }  // namespace chladni::linear

@@ -8,6 +8,8 @@
 #include "linear/cholesky/cholesky_factor.hpp"
 #include "linear/cholesky/supernodal/assembly_tree.hpp"
 #include "linear/cholesky/supernodal/fronts.hpp"
+#include "linear/cholesky/supernodal/shared_columns.hpp"
+#include "linear/cholesky/supernodal/shared_fronts.hpp"
 #include "linear/cholesky/supernodal/slot_exchange.hpp"
 #include "linear/cholesky/supernodal/subtrees.hpp"
 #include "linear/cholesky/supernodal/tiled_columns.hpp"
@@ -38,8 +40,8 @@ struct PivotSigns {
 
 /// Our sparse factor L D L^T for many right-hand sides: nested dissection by METIS, multifrontal
 /// elimination without pivoting, and triangular solutions that read the factor in the order of
-/// memory, tile by tile, once for all columns of a block. Whole subtrees belong to one rank; the
-/// fronts above them, which are small for plates and shells, are repeated on the ranks below.
+/// memory, tile by tile, once for all columns of a block. Whole subtrees belong to one rank; of the
+/// fronts above them, each rank of those below has some rows.
 class SupernodalFactor : public CholeskyFactor {
  public:
   explicit SupernodalFactor(MPI_Comm comm);
@@ -91,21 +93,24 @@ class SupernodalFactor : public CholeskyFactor {
   void make_groups();
   void free_groups();
   int level_of(int s) const;
+  bool is_shared(int s) const { return group_[s].size() > 1; }
   bool is_counted_here(int s) const { return group_[s].first == rank_; }
   Supernodes of_trees(const std::vector<char>& roots) const;
   SlotExchange exchange_of(const std::vector<int>& rows, const RowRange& here) const;
-  /// A function that uses the columns of a supernode after its elimination.
-  using Visit = std::function<void(const Fronts& fronts, int s)>;
+  /// What uses the columns of a supernode after its elimination, by one rank or by a group.
+  struct Visit {
+    std::function<void(const Fronts& fronts, int s)> own;
+    std::function<void(const DealtFront& front, int s)> shared;
+  };
   struct Eliminated {
     MatFactorError error;
     PetscInt n_negative = 0;
   };
   Eliminated eliminate(Mat A, const Visit& visit) const;
   int eliminate_own(Fronts& fronts, const Visit& visit) const;
-  int eliminate_shared(Fronts& fronts, const Visit& visit) const;
-  void take_left_overs(Fronts& fronts, int s) const;
-  void keep(const Fronts& fronts, int s);
+  int eliminate_shared(Fronts& fronts, const MatrixRows& A, const Visit& visit) const;
   void add_squares(const Fronts& fronts, int s, std::vector<double>& sums) const;
+  void add_own_squares(const DealtFront& front, int s, std::vector<double>& sums) const;
   std::vector<std::vector<int>> trees_of(const SparseColumns& B) const;
   std::vector<char> take(const SparseColumns& B, const std::vector<int>& columns,
                          Panels block) const;
@@ -117,14 +122,16 @@ class SupernodalFactor : public CholeskyFactor {
     std::vector<int> tree_of_row;
   };
   void solve_block(const SparseProblem& problem, const std::vector<int>& columns, LocalColumns X);
-  void sum_slots(const std::vector<int>& supernodes, Panels X, MPI_Comm comm) const;
+  void sum_slots(int s, Panels X) const;
   std::vector<char> active(Panels X, const Supernodes& trees) const;
   void sweep_forward(Panels X, const Supernodes& trees, const std::vector<char>& is_active) const;
   void sweep(Panels X, const Supernodes& trees, const std::vector<char>& is_active) const;
   template <typename Sweep>
   void in_panels(const SlotExchange& exchange, LocalColumns X, const Sweep& sweep);
   TiledColumns tiles(int s) const;
-  TiledColumns tiles_within_group(int s) const;
+  DealtRows dealt_rows(int s) const;
+  SharedColumns shared_columns(int s) const;
+  std::span<const int> below_slots(int s) const;
   Panels panels(std::size_t n_columns);
 
   MPI_Comm comm_ = MPI_COMM_NULL;

@@ -97,13 +97,27 @@ SupernodalPart SupernodalFactor::part(IS rows) const
   return {.supernodes = of_trees(roots), .exchange = exchange_of(all, here)};
 }
 
-TiledColumns SupernodalFactor::tiles(int s) const
+std::span<const int> SupernodalFactor::below_slots(int s) const
 {
   const std::size_t first = tree_.below_starts[s], n = tree_.below_starts[s + 1] - first;
+  return std::span(below_slots_).subspan(first, n);
+}
+
+TiledColumns SupernodalFactor::tiles(int s) const
+{
   return {.values = tiles_.get() + tile_starts_[s],
           .n_columns = tree_.n_columns(s),
           .first = slot_[tree_.first_column[s]],
-          .below = std::span(below_slots_).subspan(first, n)};
+          .below = below_slots(s)};
+}
+
+SharedColumns SupernodalFactor::shared_columns(int s) const
+{
+  return {.values = tiles_.get() + tile_starts_[s],
+          .rows = dealt_rows(s),
+          .place = rank_ - group_[s].first,
+          .first = slot_[tree_.first_column[s]],
+          .below = below_slots(s)};
 }
 
 Panels SupernodalFactor::panels(std::size_t n_columns)
@@ -113,32 +127,19 @@ Panels SupernodalFactor::panels(std::size_t n_columns)
   return {.values = panel_values_.get(), .stride = stride, .n_panels = n_panels(n_columns)};
 }
 
-/// The columns of s with those rows below that the same group eliminates: they come first.
-TiledColumns SupernodalFactor::tiles_within_group(int s) const
+/// Sums the slots of the columns of s over its group.
+void SupernodalFactor::sum_slots(int s, Panels X) const
 {
-  TiledColumns L = tiles(s);
-  const std::span<const int> below = tree_.below(s);
-  std::size_t n = 0;
-  while (n < below.size() && group_[supernode_at(below[n])] == group_[s]) ++n;
-  L.below = L.below.first(n);
-  return L;
-}
-
-/// Sums over a group, of supernodes that stand side by side in one call.
-void SupernodalFactor::sum_slots(const std::vector<int>& supernodes, Panels X, MPI_Comm comm) const
-{
-  const auto first_slot = [&](int s) { return slot_[tree_.first_column[s]]; };
-  for (std::size_t i = 0; i < supernodes.size();) {
-    const int first = first_slot(supernodes[i]);
-    int last = first;
-    for (; i < supernodes.size() && first_slot(supernodes[i]) == last; ++i)
-      last += tree_.n_columns(supernodes[i]);
-    const std::size_t n = std::size_t(last - first) * panel_width;
-    for (int p = 0; p < X.n_panels; ++p) {
-      double* common = X.values + p * X.stride + std::size_t(first) * panel_width;
-      sum_over_ranks(std::span(common, n), comm);
-    }
-  }
+  const MPI_Comm comm = group_comms_[level_of(s)];
+  double* first = X.values + std::size_t(slot_[tree_.first_column[s]]) * panel_width;
+  const std::size_t n = std::size_t(tree_.n_columns(s)) * panel_width;
+  if (X.n_panels == 1) return sum_over_ranks(std::span(first, n), comm);
+  std::vector<double> all(n * X.n_panels);
+  for (int p = 0; p < X.n_panels; ++p)
+    std::copy_n(first + p * X.stride, n, all.begin() + std::ptrdiff_t(p * n));
+  sum_over_ranks(all, comm);
+  for (int p = 0; p < X.n_panels; ++p)
+    std::copy_n(all.begin() + std::ptrdiff_t(p * n), n, first + p * X.stride);
 }
 
 /// The own supernodes in whose slots or below them something is not zero, and all shared ones.
@@ -159,19 +160,19 @@ std::vector<char> SupernodalFactor::active(Panels X, const Supernodes& trees) co
 }
 
 /// X <- L^-1 X in some trees. Over the ranks of a group the slots above it add up to what all
-/// supernodes below have put there: of those that the group eliminates alike the first rank alone
-/// puts something there.
+/// supernodes below have put there. What comes out for shared rows stays with the rank that has
+/// them.
 /// @param is_active  [n_supernodes] right-hand sides are not zero; true of all shared ones
 void SupernodalFactor::sweep_forward(Panels X, const Supernodes& trees,
                                      const std::vector<char>& is_active) const
 {
   for (const int s : trees.own)
     if (is_active[s] != 0) solve_forward(tiles(s), X);
-  for (std::size_t level = 0; level < trees.shared.size(); ++level) {
-    sum_slots(trees.shared[level], X, group_comms_[level]);
-    const bool goes_on = groups_[level].first == rank_;
-    for (const int s : trees.shared[level])
-      solve_forward(goes_on ? tiles(s) : tiles_within_group(s), X);
+  for (const std::vector<int>& supernodes : trees.shared) {
+    for (const int s : supernodes) {
+      sum_slots(s, X);
+      solve_forward(shared_columns(s), X);
+    }
   }
 }
 
@@ -180,12 +181,18 @@ void SupernodalFactor::sweep(Panels X, const Supernodes& trees,
                              const std::vector<char>& is_active) const
 {
   sweep_forward(X, trees, is_active);
-  const auto solve_all = [&](const std::vector<int>& supernodes) {
-    for (auto s = supernodes.rbegin(); s != supernodes.rend(); ++s)
-      if (is_active[tree_of_[*s]] != 0) solve_backward(tiles(*s), X);
+  const auto backwards = [](const auto& list, const auto& visit) {
+    std::for_each(list.rbegin(), list.rend(), visit);
   };
-  std::for_each(trees.shared.rbegin(), trees.shared.rend(), solve_all);
-  solve_all(trees.own);
+  backwards(trees.shared, [&](const std::vector<int>& supernodes) {
+    backwards(supernodes, [&](int s) {
+      solve_backward(shared_columns(s), X);
+      sum_slots(s, X);
+    });
+  });
+  backwards(trees.own, [&](int s) {
+    if (is_active[tree_of_[s]] != 0) solve_backward(tiles(s), X);
+  });
 }
 
 /// X <- what `sweep` makes of it in panels, some columns at a time.
@@ -214,11 +221,13 @@ void SupernodalFactor::solve_half(const SupernodalPart& part, LocalColumns X)
 {
   in_panels(part.exchange, X, [&](Panels block) {
     sweep_forward(block, part.supernodes, active(block, part.supernodes));
-    const auto scale = [&](const std::vector<int>& supernodes) {
-      for (const int s : supernodes) scale_by_root(tiles(s), block);
-    };
-    scale(part.supernodes.own);
-    std::ranges::for_each(part.supernodes.shared, scale);
+    for (const int s : part.supernodes.own) scale_by_root(tiles(s), block);
+    for (const std::vector<int>& supernodes : part.supernodes.shared) {
+      for (const int s : supernodes) {
+        scale_by_root(shared_columns(s), block);
+        sum_slots(s, block);
+      }
+    }
   });
 }
 
@@ -255,7 +264,7 @@ std::vector<char> SupernodalFactor::take(const SparseColumns& B, const std::vect
   std::fill_n(block.values, block.stride * block.n_panels, 0.0);
   std::vector<char> is_active(tree_.n_supernodes(), 0);
   for (int s = 0; s < tree_.n_supernodes(); ++s)
-    if (group_[s].size() > 1) is_active[s] = 1;
+    if (is_shared(s)) is_active[s] = 1;
   for (std::size_t j = 0; j < columns.size(); ++j) {
     double* panel = block.values + j / panel_width * block.stride;
     for (int k = B.starts[columns[j]]; k < B.starts[columns[j] + 1]; ++k) {

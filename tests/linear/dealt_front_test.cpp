@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <random>
+#include <vector>
+
+#include "common/petsc.hpp"
+#include "linear/cholesky/supernodal/dealt_elimination.hpp"
+#include "linear/cholesky/supernodal/shared_columns.hpp"
+#include "linear/kernels/aligned_numbers.hpp"
+
+namespace chladni::linear {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MatrixXd random_matrix(int n_rows, int n_columns)
+{
+  std::mt19937 generator(n_rows + 1000 * n_columns);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  return MatrixXd::NullaryExpr(n_rows, n_columns, [&] { return uniform(generator); });
+}
+
+/// Sizes: columns that are eliminated, rows below.
+class DealtFrontTest : public ::testing::TestWithParam<std::pair<int, int>> {
+ protected:
+  int w = GetParam().first, m = GetParam().second, n = w + m;
+  int place = petsc::rank(PETSC_COMM_WORLD), n_ranks = petsc::size(PETSC_COMM_WORLD);
+  DealtRows rows{w, m, {.first = 0, .last = n_ranks}};
+  MatrixXd triangle = MatrixXd::Zero(w, w);
+  VectorXd D = VectorXd::Zero(w);
+
+  std::vector<int> own_rows(int first, int last) const
+  {
+    std::vector<int> own;
+    rows.for_rows(place, first, last, [&](int row) { own.push_back(row); });
+    return own;
+  }
+  /// Eliminates the first columns; L and rest are what this rank has of them.
+  int eliminate(MatrixXd& L, MatrixXd& rest)
+  {
+    std::vector<double> workspace(size_of_workspace(rows, place));
+    return eliminate_dealt(front(L, rest, workspace));
+  }
+  DealtFront front(MatrixXd& L, MatrixXd& rest, std::vector<double>& workspace)
+  {
+    return {.rows = rows,
+            .place = place,
+            .comm = PETSC_COMM_WORLD,
+            .L = L.data(),
+            .rest = rest.data(),
+            .triangle = triangle.data(),
+            .D = D.data(),
+            .workspace = workspace.data()};
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Sizes, DealtFrontTest,
+                         ::testing::Values(std::pair{1, 0}, std::pair{1, 1}, std::pair{5, 3},
+                                           std::pair{6, 6}, std::pair{7, 13}, std::pair{96, 100},
+                                           std::pair{97, 1}, std::pair{230, 0},
+                                           std::pair{200, 310}));
+
+TEST_P(DealtFrontTest, IsEliminatedAsTheDenseMatrixIs)
+{
+  const MatrixXd R = random_matrix(n, n);
+  const MatrixXd A = R * R.transpose() + n * MatrixXd::Identity(n, n);
+  const Eigen::LDLT<MatrixXd> whole(A.topLeftCorner(w, w));
+  const std::vector<int> own = own_rows(0, n), own_below = own_rows(w, n);
+  MatrixXd L = A(own, Eigen::seqN(0, w));
+  MatrixXd rest = A(own_below, Eigen::seqN(w, m));
+  ASSERT_EQ(eliminate(L, rest), 0);
+  const MatrixXd unit = triangle.triangularView<Eigen::UnitLower>();
+  const double round_off = 1e-14 * A.norm();
+  EXPECT_LT((unit * D.asDiagonal() * unit.transpose() - A.topLeftCorner(w, w)).norm(), round_off);
+  const MatrixXd L_below =
+      A.bottomLeftCorner(m, w) * unit.transpose().inverse() * D.cwiseInverse().asDiagonal();
+  const MatrixXd left = A.bottomRightCorner(m, m) - L_below * D.asDiagonal() * L_below.transpose();
+  const Eigen::Index n_pivots = std::ssize(own) - std::ssize(own_below);
+  for (std::size_t i = 0; i < own_below.size(); ++i) {
+    const int row = own_below[i] - w;
+    EXPECT_LT((L.row(n_pivots + Eigen::Index(i)) - L_below.row(row)).norm(), 1e-13);
+    EXPECT_LT((rest.row(Eigen::Index(i)).head(row + 1) - left.row(row).head(row + 1)).norm(),
+              round_off);
+  }
+  for (Eigen::Index i = 0; i < n_pivots; ++i) {
+    const int row = own[std::size_t(i)];
+    EXPECT_LT((L.row(i).head(row) - unit.row(row).head(row)).norm(), 1e-14 * n);
+  }
+}
+
+TEST_P(DealtFrontTest, CountsNegativePivotsAndStopsAtNone)
+{
+  for (const auto& [last, expected] : {std::pair{-10.0, 1}, {0.0, -1}, {std::nan(""), -1}}) {
+    MatrixXd A = MatrixXd::Identity(n, n);
+    A(w - 1, w - 1) = last;
+    MatrixXd L = A(own_rows(0, n), Eigen::seqN(0, w));
+    MatrixXd rest = A(own_rows(w, n), Eigen::seqN(w, m));
+    EXPECT_EQ(eliminate(L, rest), expected);
+  }
+}
+
+TEST_P(DealtFrontTest, SolvesWithItsRows)
+{
+  const MatrixXd R = random_matrix(n, n);
+  const MatrixXd A = R * R.transpose() + n * MatrixXd::Identity(n, n);
+  MatrixXd L = A(own_rows(0, n), Eigen::seqN(0, w));
+  MatrixXd rest = A(own_rows(w, n), Eigen::seqN(w, m));
+  std::vector<double> workspace(size_of_workspace(rows, place));
+  const DealtFront dealt = front(L, rest, workspace);
+  ASSERT_EQ(eliminate_dealt(dealt), 0);
+  divide_by_triangle(dealt);
+  const AlignedNumbers tiles = aligned_numbers(shared_size(rows, place));
+  store_shared(rows, place, L.data(), D.data(), tiles.get());
+  std::vector<int> below;
+  for (int i = 0; i < m; ++i) below.push_back(3 + w + 2 * (m - 1 - i));
+  const SharedColumns shared{
+      .values = tiles.get(), .rows = rows, .place = place, .first = 3, .below = below};
+  const int n_rows = 3 + w + 2 * m, n_panels = 3;
+  const AlignedNumbers values = aligned_numbers(std::size_t(n_rows) * panel_width * n_panels);
+  const Panels panels{values.get(), std::size_t(n_rows) * panel_width, n_panels};
+  const auto entry = [&](int row, int column) -> double& {
+    return values
+        .get()[(column / panel_width) * panels.stride + row * panel_width + column % panel_width];
+  };
+  const MatrixXd B = random_matrix(n_rows, n_panels * panel_width);
+  for (int j = 0; j < B.cols(); ++j)
+    for (int i = 0; i < n_rows; ++i) entry(i, j) = i < 3 + w ? B(i, j) : 0.0;
+  solve_forward(shared, panels);
+  MatrixXd forward(n_rows, B.cols());
+  for (int j = 0; j < B.cols(); ++j)
+    for (int i = 0; i < n_rows; ++i) forward(i, j) = entry(i, j);
+  MPI_Allreduce(MPI_IN_PLACE, forward.data(), int(forward.size()), MPI_DOUBLE, MPI_SUM,
+                PETSC_COMM_WORLD);
+  const MatrixXd unit = triangle.triangularView<Eigen::UnitLower>();
+  const MatrixXd L_below =
+      A.bottomLeftCorner(m, w) * unit.transpose().inverse() * D.cwiseInverse().asDiagonal();
+  const MatrixXd x = unit.inverse() * B.middleRows(3, w);
+  EXPECT_LT((forward.middleRows(3, w) - x).norm(), 1e-13 * x.norm());
+  MatrixXd pushed(m, B.cols());
+  for (int i = 0; i < m; ++i) pushed.row(i) = forward.row(below[std::size_t(i)]);
+  EXPECT_LE((pushed + L_below * x).norm(), 1e-13 * x.norm());
+
+  MatrixXd y_below(m, B.cols());
+  for (int i = 0; i < m; ++i) {
+    const int slot = below[std::size_t(i)];
+    y_below.row(i) = B.row(slot);
+    for (int j = 0; j < B.cols(); ++j) entry(slot, j) = B(slot, j);
+  }
+  solve_backward(shared, panels);
+  MatrixXd backward(w, B.cols());
+  for (int j = 0; j < B.cols(); ++j)
+    for (int i = 0; i < w; ++i) backward(i, j) = entry(3 + i, j);
+  MPI_Allreduce(MPI_IN_PLACE, backward.data(), int(backward.size()), MPI_DOUBLE, MPI_SUM,
+                PETSC_COMM_WORLD);
+  const MatrixXd y = unit.transpose().inverse() *
+                     (D.cwiseInverse().asDiagonal() * x - L_below.transpose() * y_below);
+  EXPECT_LT((backward - y).norm(), 1e-13 * y.norm() + 1e-300);
+}
+
+}  // namespace
+}  // namespace chladni::linear
