@@ -10,6 +10,7 @@ namespace chladni::cases {
 void Phases::begun(const std::string& name)
 {
   name_ = name;
+  MPI_Pcontrol(1, name.c_str());  // to tools that count by phases
   if (!progress_) return;
   progress_(name_, 0.0);
   listener_.emplace([this](double fraction) { progress_(name_, fraction); });
@@ -20,6 +21,7 @@ void Phases::ended()
   // A page that is given back is cleared anew when the next phase touches it.
   constexpr double worth_it_MiB = 128.0;  // of all ranks, which may be on one machine
   if (linear::freed_MiB() * petsc::size(PETSC_COMM_WORLD) > worth_it_MiB) linear::give_back_freed();
+  MPI_Pcontrol(0);
   listener_.reset();
   clock_.end_phase(name_);
   if (progress_) progress_(name_, 1.0);

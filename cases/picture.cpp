@@ -1,8 +1,12 @@
 #include "cases/picture.hpp"
 
-#include "mesh/element_parts.hpp"
-
 #include <algorithm>
+#include <span>
+#include <utility>
+
+#include "cases/ranks.hpp"
+#include "common/petsc.hpp"
+#include "mesh/element_parts.hpp"
 
 namespace chladni::cases {
 PictureNodes picture_nodes(const mesh::Mesh& mesh, scene::PictureChoice choice)
@@ -30,26 +34,109 @@ PictureNodes picture_nodes(const mesh::Mesh& mesh, scene::PictureChoice choice)
   return chosen;
 }
 
+namespace {
+
+using Eigen::MatrixXd;
+
+/// Those of some nodes that depend on DOFs of this rank: their places among them.
+std::vector<int> own_places(const std::vector<int>& nodes, const plate::DofMap& dofs,
+                            const OwnRows& own)
+{
+  std::vector<int> places;
+  const int n_c = dofs.n_components();
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const auto is_here = [&](const plate::MotionTerm& term) { return own.has(n_c * term.number); };
+    if (std::ranges::any_of(dofs.motion(nodes[k]), is_here)) places.push_back(static_cast<int>(k));
+  }
+  return places;
+}
+
+/// A few nodes at a time: the rows of all DOFs would be larger than the picture.
+constexpr std::size_t at_once = 256;
+
+/// Calls visit(some) for some of the places at a time.
+template <typename Visit>
+void by_pieces(std::span<const int> places, const Visit& visit)
+{
+  for (std::size_t begin = 0; begin < places.size(); begin += at_once)
+    visit(places.subspan(begin, std::min(at_once, places.size() - begin)));
+}
+
+/// Adds the displacements of the nodes at some places.
+void add_rows(std::span<const int> places, const double* values, MatrixXd& all)
+{
+  for (double& first : all.row(0)) {
+    double* column = &first;
+    for (const int place : places) {
+      double* node = column + 3 * std::ptrdiff_t(place);
+      for (int c = 0; c < 3; ++c) node[c] += *values++;
+    }
+  }
+}
+
+int numbers_of(std::span<const int> places, Eigen::Index n_columns)
+{
+  return static_cast<int>(3 * std::ssize(places) * n_columns);
+}
+
+/// Adds what the other ranks send to the first.
+void receive(MatrixXd& all)
+{
+  std::vector<double> values;
+  for (int from = 1; from < n_ranks(); ++from) {
+    int n = 0;
+    MPI_Recv(&n, 1, MPI_INT, from, 0, PETSC_COMM_WORLD, MPI_STATUS_IGNORE);
+    std::vector<int> places(static_cast<std::size_t>(n));
+    MPI_Recv(places.data(), n, MPI_INT, from, 0, PETSC_COMM_WORLD, MPI_STATUS_IGNORE);
+    by_pieces(places, [&](std::span<const int> some) {
+      const int n_numbers = numbers_of(some, all.cols());
+      values.resize(static_cast<std::size_t>(n_numbers));
+      MPI_Recv(values.data(), n_numbers, MPI_DOUBLE, from, 0, PETSC_COMM_WORLD, MPI_STATUS_IGNORE);
+      add_rows(some, values.data(), all);
+    });
+  }
+}
+
+void send(const std::vector<int>& places, const std::vector<MatrixXd>& pieces)
+{
+  const auto n = static_cast<int>(places.size());
+  MPI_Send(&n, 1, MPI_INT, 0, 0, PETSC_COMM_WORLD);
+  MPI_Send(places.data(), n, MPI_INT, 0, 0, PETSC_COMM_WORLD);
+  for (const MatrixXd& piece : pieces)
+    MPI_Send(piece.data(), static_cast<int>(piece.size()), MPI_DOUBLE, 0, 0, PETSC_COMM_WORLD);
+}
+
+}  // namespace
+
 mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap& dofs,
-                                 const RowsOf& rows_of)
+                                 const OwnRows& own)
 {
   const auto n = std::ssize(chosen.nodes);
   mbs_export::Picture picture;
   picture.positions.resize(n, 3);
   picture.cells = chosen.cells;
-  picture.transformation.resize(3 * n, rows_of({}).cols());
-  // A few nodes at a time: the rows of all of them would be larger than the picture.
-  constexpr std::ptrdiff_t most_at_once = 256;
-  for (std::ptrdiff_t begin = 0; begin < n; begin += most_at_once) {
-    const std::ptrdiff_t end = std::min(begin + most_at_once, n);
-    const std::vector<int> nodes(chosen.nodes.begin() + begin, chosen.nodes.begin() + end);
-    const Eigen::MatrixXd rows = node_rows(nodes, dofs, rows_of);
-    for (std::ptrdiff_t k = begin; k < end; ++k) {
-      const Eigen::Vector3d x = dofs.position(nodes[k - begin]);
-      picture.positions.row(k) << x[0], x[1], x[2];
-      picture.transformation.middleRows<3>(3 * k) = rows.middleRows<3>(6 * (k - begin));
-    }
+  for (std::ptrdiff_t k = 0; k < n; ++k) {
+    const Eigen::Vector3d x = dofs.position(chosen.nodes[static_cast<std::size_t>(k)]);
+    picture.positions.row(k) << x[0], x[1], x[2];
   }
+  if (n == 0) return picture;
+  const bool is_first = rank() == 0;
+  if (is_first) picture.transformation.setZero(3 * n, own.n_columns);
+  const std::vector<int> places = own_places(chosen.nodes, dofs, own);
+  std::vector<MatrixXd> pieces;
+  by_pieces(places, [&](std::span<const int> some) {
+    std::vector<int> nodes;
+    for (const int place : some) nodes.push_back(chosen.nodes[static_cast<std::size_t>(place)]);
+    MatrixXd rows = displacement_rows(nodes, dofs, own.rows_of);
+    if (is_first)
+      add_rows(some, rows.data(), picture.transformation);
+    else
+      pieces.push_back(std::move(rows));
+  });
+  if (is_first)
+    receive(picture.transformation);
+  else
+    send(places, pieces);
   return picture;
 }
 

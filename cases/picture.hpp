@@ -21,8 +21,10 @@ struct PictureNodes {
 PictureNodes picture_nodes(const mesh::Mesh& mesh, scene::PictureChoice choice);
 
 /// The positions, cells and displacements of a picture. Dependent nodes follow their reference
-/// nodes.
+/// nodes. Each rank makes the displacements of those nodes whose DOFs it has, and the first rank
+/// alone gets them.
+/// @note Collective.
 mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap& dofs,
-                                 const RowsOf& rows_of);
+                                 const OwnRows& own);
 
 }  // namespace chladni::cases

@@ -138,8 +138,13 @@ SceneReduction with_what_bodies_need(const scene::Scene& scene, const FeModel& f
         node_rows(fe.attachments.nodes, fe.system.dofs, rows);
   }
   phases.begin("pictures");
-  reduced.system.picture =
-      make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows);
+  const reduce::OwnBasisRows own(reduced.reduction.Q_CB, reduced.body.dofs);
+  reduced.system.picture = make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs,
+                                        {.n_columns = std::ssize(reduced.places),
+                                         .has = [&](int dof) { return own.has(dof); },
+                                         .rows_of = [&](const std::vector<int>& dofs) -> MatrixXd {
+                                           return own.rows(dofs)(every, reduced.places);
+                                         }});
   if (!scene.resultants.groups.empty()) {
     phases.begin("section forces");
     reduced.system.resultants = section_forces(scene.resultants, structure_of(scene),

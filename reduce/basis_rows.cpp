@@ -9,36 +9,6 @@ namespace chladni::reduce {
 
 using Eigen::MatrixXd;
 
-namespace {
-
-/// The places of some DOFs among those of a set on this rank, in any order.
-class Places {
- public:
-  explicit Places(IS set)
-  {
-    const std::vector<PetscInt> dofs = petsc::own_indices(set);
-    if (dofs.empty()) return;
-    const auto [first, last] = std::ranges::minmax(dofs);
-    first_ = first;
-    place_.resize(std::size_t(last - first) + 1, none);
-    for (std::size_t i = 0; i < dofs.size(); ++i)
-      place_[std::size_t(dofs[i] - first)] = static_cast<PetscInt>(i);
-  }
-  std::optional<PetscInt> operator()(PetscInt dof) const
-  {
-    if (dof < first_ || dof - first_ >= std::ssize(place_)) return std::nullopt;
-    const PetscInt place = place_[std::size_t(dof - first_)];
-    return place == none ? std::nullopt : std::optional(place);
-  }
-
- private:
-  static constexpr PetscInt none = -1;
-  PetscInt first_ = 0;
-  std::vector<PetscInt> place_;
-};
-
-}  // namespace
-
 BasisColumns::BasisColumns(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of)
     : Psi_(Q_CB.Psi),
       n_m_(Psi_.n_cols()),
@@ -65,25 +35,53 @@ void BasisColumns::write(PetscInt column, std::span<double> rows) const
   for (std::size_t i = 0; i < slaves_.size(); ++i) rows[std::size_t(slaves_[i])] = values[i];
 }
 
+OwnBasisRows::Places::Places(IS set)
+{
+  const std::vector<PetscInt> dofs = petsc::own_indices(set);
+  if (dofs.empty()) return;
+  const auto [first, last] = std::ranges::minmax(dofs);
+  first_ = first;
+  place_.resize(std::size_t(last - first) + 1, none);
+  for (std::size_t i = 0; i < dofs.size(); ++i)
+    place_[std::size_t(dofs[i] - first)] = static_cast<PetscInt>(i);
+}
+
+std::optional<PetscInt> OwnBasisRows::Places::operator()(PetscInt dof) const
+{
+  if (dof < first_ || dof - first_ >= std::ssize(place_)) return std::nullopt;
+  const PetscInt place = place_[std::size_t(dof - first_)];
+  return place == none ? std::nullopt : std::optional(place);
+}
+
+OwnBasisRows::OwnBasisRows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of)
+    : Psi_(Q_CB.Psi),
+      first_master_(petsc::indices_before(rows_of.masters)),
+      masters_(rows_of.masters),
+      slaves_(rows_of.slaves)
+{
+  if (Q_CB.modes) Phi_.emplace(Q_CB.modes->Phi);
+}
+
+MatrixXd OwnBasisRows::rows(const std::vector<PetscInt>& dofs) const
+{
+  MatrixXd rows = MatrixXd::Zero(std::ssize(dofs), n_columns());
+  std::vector<std::pair<PetscInt, PetscInt>> own;  // row here and row among this rank's slaves
+  for (PetscInt i = 0; i < rows.rows(); ++i) {
+    if (const auto m = master(dofs[i])) rows(i, first_master_ + *m) = 1.0;
+    if (const auto s = slave(dofs[i])) own.emplace_back(i, *s);
+  }
+  const PetscInt n_m = Psi_.n_cols();
+  for (PetscInt j = 0; j < n_m; ++j)
+    for (const auto& [i, s] : own) rows(i, j) = Psi_(s, j);
+  for (PetscInt j = n_m; j < n_columns(); ++j)
+    for (const auto& [i, s] : own) rows(i, j) = (*Phi_)(s, j - n_m);
+  return rows;
+}
+
 MatrixXd basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of,
                     const std::vector<PetscInt>& dofs)
 {
-  const linear::LocalRows Psi(Q_CB.Psi);
-  const std::optional<linear::LocalRows> Phi =
-      Q_CB.modes ? std::optional<linear::LocalRows>(std::in_place, Q_CB.modes->Phi) : std::nullopt;
-  const Places masters(rows_of.masters), slaves(rows_of.slaves);
-  const PetscInt first_master = petsc::indices_before(rows_of.masters);
-  const PetscInt n_m = Psi.n_cols();
-  MatrixXd rows = MatrixXd::Zero(std::ssize(dofs), n_m + Q_CB.n_modes());
-  std::vector<std::pair<PetscInt, PetscInt>> own;  // row here and row among this rank's slaves
-  for (PetscInt i = 0; i < rows.rows(); ++i) {
-    if (const auto m = masters(dofs[i])) rows(i, first_master + *m) = 1.0;
-    if (const auto s = slaves(dofs[i])) own.emplace_back(i, *s);
-  }
-  for (PetscInt j = 0; j < n_m; ++j)
-    for (const auto& [i, s] : own) rows(i, j) = Psi(s, j);
-  for (PetscInt j = 0; j < Q_CB.n_modes(); ++j)
-    for (const auto& [i, s] : own) rows(i, n_m + j) = (*Phi)(s, j);
+  MatrixXd rows = OwnBasisRows(Q_CB, rows_of).rows(dofs);
   linear::sum_over_ranks(linear::values_of(rows), petsc::communicator(Q_CB.Psi));
   return rows;
 }

@@ -107,10 +107,11 @@ void share(std::vector<int> roots, const Subtrees& all, const RankGroup& group,
     std::ranges::for_each(roots, give);
     return;
   }
-  double common = 0.0, shortest = std::numeric_limits<double>::infinity();
+  double common = 0.0, left = sum(roots, all.work_below);
+  double shortest = std::numeric_limits<double>::infinity();
   std::vector<int> above, best_above;
   Halved best;
-  while (!roots.empty() && common < shortest) {
+  while (!roots.empty() && common + left / group.size() < shortest) {
     std::ranges::sort(roots, [&](int a, int b) { return all.work_below[a] > all.work_below[b]; });
     Halved now = halved(roots, all, group);
     if (common + now.path < shortest) {
@@ -120,6 +121,7 @@ void share(std::vector<int> roots, const Subtrees& all, const RankGroup& group,
     }
     const int split = roots.front();
     common += work(all.tree, split, group.size());
+    left -= work(all.tree, split);
     above.push_back(split);
     roots.erase(roots.begin());
     roots.insert(roots.end(), all.children[split].begin(), all.children[split].end());
