@@ -34,11 +34,13 @@ LogEvent::LogEvent(Event event)
 {
   if (!events) register_events();
   event_ = (*events)[static_cast<std::size_t>(event)];
+  MPI_Pcontrol(2, names[static_cast<std::size_t>(event)]);  // to tools that count
   petsc::check(PetscLogEventBegin(event_, 0, 0, 0, 0));
 }
 
 LogEvent::~LogEvent()
 {
+  MPI_Pcontrol(3);
   PetscLogEventEnd(event_, 0, 0, 0, 0);
 }
 

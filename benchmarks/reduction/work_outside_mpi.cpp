@@ -1,6 +1,6 @@
 // A library to be loaded before MPI (LD_PRELOAD), which counts what each rank does by itself: the
-// CPU time between its calls of MPI, by the phases that the program names with MPI_Pcontrol, and
-// what it sends. Waiting in MPI does not count, so that the numbers mean something where many ranks
+// CPU time between its calls of MPI, by the phases and the events in them that the program names with
+// MPI_Pcontrol (1 and 2; 0 and 3 end them), and what it sends. Waiting in MPI does not count, so that the numbers mean something where many ranks
 // share few cores. MPI_Finalize writes them to the file that WORK_OUTSIDE_MPI names.
 #include <mpi.h>
 
@@ -27,6 +27,8 @@ std::map<std::string, Counted>& phases()
   return all;
 }
 
+std::string phase;
+std::vector<std::string> events;  ///< under way within the phase
 Counted* now = nullptr;
 double since = 0.0;
 
@@ -47,11 +49,22 @@ void enter()
   if (now != nullptr) now->work_s += cpu_s() - since;
 }
 
-void turn_to(const char* phase)
+void turn_to(const std::string& name)
 {
   enter();
-  now = &phases()[phase];
+  now = &phases()[name];
   leave();
+}
+
+std::string event()
+{
+  return events.empty() ? phase : phase + '/' + events.back();
+}
+
+void begin_phase(const char* name)
+{
+  phase = name;
+  turn_to(event());
 }
 
 double size_of(MPI_Datatype type)
@@ -150,14 +163,14 @@ extern "C" {
 int MPI_Init(int* argc, char*** argv)
 {
   const int status = PMPI_Init(argc, argv);
-  turn_to("start");
+  begin_phase("start");
   return status;
 }
 
 int MPI_Init_thread(int* argc, char*** argv, int required, int* provided)
 {
   const int status = PMPI_Init_thread(argc, argv, required, provided);
-  turn_to("start");
+  begin_phase("start");
   return status;
 }
 
@@ -165,7 +178,12 @@ int MPI_Pcontrol(const int level, ...)
 {
   std::va_list arguments;
   va_start(arguments, level);
-  turn_to(level > 0 ? va_arg(arguments, const char*) : "between");
+  switch (level) {
+    case 1: begin_phase(va_arg(arguments, const char*)); break;
+    case 2: events.emplace_back(va_arg(arguments, const char*)); turn_to(event()); break;
+    case 3: if (!events.empty()) events.pop_back(); turn_to(event()); break;
+    default: begin_phase("between");
+  }
   va_end(arguments);
   return MPI_SUCCESS;
 }
