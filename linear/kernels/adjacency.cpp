@@ -39,28 +39,25 @@ void for_missing(const Adjacency& graph, const Visit& visit)
   }
 }
 
-/// A sum of numbers for edges to vertices that follow, less that for edges to those before: zero
-/// where each edge has its partner, and else with a probability of 2^-64. It reads the graph once,
-/// where a transposed graph is written and read in another order.
-std::uint64_t lacking_partners(const Adjacency& graph)
+}  // namespace
+
+std::uint64_t lacking_partners(const Adjacency& part, int first)
 {
   std::uint64_t sum = 0;
-  for (int v = 0; v < graph.n_vertices(); ++v) {
-    for (int k = graph.starts[v]; k < graph.starts[v + 1]; ++k) {
-      const int w = graph.neighbours[k];
-      const auto [low, high] = std::minmax(v, w);
+  for (int v = 0; v < part.n_vertices(); ++v) {
+    for (int k = part.starts[v]; k < part.starts[v + 1]; ++k) {
+      const int w = part.neighbours[k];
+      const auto [low, high] = std::minmax(first + v, w);
       const std::uint64_t edge = mixed((std::uint64_t(low) << 32) + std::uint64_t(high));
-      sum += v < w ? edge : 0 - edge;
+      sum += first + v < w ? edge : 0 - edge;
     }
   }
   return sum;
 }
 
-}  // namespace
-
 Adjacency symmetrized(Adjacency graph)
 {
-  if (lacking_partners(graph) == 0) return graph;
+  if (lacking_partners(graph, 0) == 0) return graph;
   std::vector<std::pair<int, int>> missing;
   for_missing(graph, [&](int v, int w) { missing.emplace_back(v, w); });
   if (missing.empty()) return graph;

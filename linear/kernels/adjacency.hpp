@@ -19,6 +19,13 @@ struct Adjacency {
 /// @throws chladni::Error when there are more edges than METIS can count.
 Adjacency symmetrized(Adjacency graph);
 
+/// A sum of numbers for edges to vertices that follow, less that for edges to those before: zero
+/// where each edge of a graph has its partner, and else with a probability of 2^-64. It reads the
+/// graph once, where a transposed graph is written and read in another order. The sums of parts of
+/// a graph add up.
+/// @param first  number of the first vertex of `part` in the graph
+std::uint64_t lacking_partners(const Adjacency& part, int first);
+
 /// A number whose bits all depend on all bits of z (the finaliser of splitmix64).
 inline std::uint64_t mixed(std::uint64_t z)
 {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "linear/cholesky/supernodal/elimination_tree.hpp"
 
@@ -18,48 +19,71 @@ double trapezoid(double columns, double below)
 /// Supernodes that take up their children where that stores few zeros.
 class Amalgamation {
  public:
-  Amalgamation(const QuotientGraph& graph, std::vector<FundamentalSupernode> supernodes)
-      : graph_(graph), supernodes_(std::move(supernodes)), children_(supernodes_.size())
+  Amalgamation(const QuotientGraph& graph, FundamentalSupernodes supernodes)
+      : all_(std::move(supernodes)),
+        first_child_(all_.size(), none),
+        sibling_(all_.size(), none),
+        next_member_(all_.size(), none),
+        first_member_(all_.size()),
+        last_member_(all_.size()),
+        columns_(all_.size(), 0.0),
+        below_(all_.size(), 0.0),
+        entries_(all_.size())
   {
-    for (int s = 0; s < std::ssize(supernodes_); ++s) {
-      columns_.push_back(rows_of(supernodes_[s].columns));
-      below_.push_back(rows_of(supernodes_[s].below));
-      entries_.push_back(trapezoid(columns_[s], below_[s]));
-      if (supernodes_[s].parent != -1) children_[supernodes_[s].parent].push_back(s);
+    std::vector<int> n_rows;  // by places
+    for (const int v : all_.order) n_rows.push_back(graph.n_rows[v]);
+    for (int s = all_.size() - 1; s >= 0; --s) {
+      first_member_[s] = last_member_[s] = s;
+      for (int j = all_.first_column[s]; j < all_.first_column[s + 1]; ++j)
+        columns_[s] += n_rows[j];
+      for (const int i : all_.below_of(s)) below_[s] += n_rows[i];
+      entries_[s] = trapezoid(columns_[s], below_[s]);
+      if (const int parent = all_.parent[s]; parent != none)
+        sibling_[s] = std::exchange(first_child_[parent], s);
     }
-    for (int s = 0; s < std::ssize(supernodes_); ++s) take_up_children(s);
+    for (int s = 0; s < all_.size(); ++s) take_up_children(s);
   }
 
-  /// What is left, children before parents.
-  std::vector<int> postorder() const
+  /// Calls visit(s) for what is left, children before parents.
+  template <typename Visit>
+  void in_postorder(const Visit& visit) const
   {
-    std::vector<int> order;
-    std::vector<std::pair<int, std::size_t>> stack;
-    for (int root = 0; root < std::ssize(supernodes_); ++root) {
-      if (supernodes_[root].parent != -1) continue;
-      stack.emplace_back(root, 0);
+    std::vector<int> stack, next(first_child_);
+    for (int root = 0; root < all_.size(); ++root) {
+      if (all_.parent[root] != none) continue;
+      stack.push_back(root);
       while (!stack.empty()) {
-        auto& [s, next] = stack.back();
-        if (next < children_[s].size()) {
-          stack.emplace_back(children_[s][next++], 0);
+        const int s = stack.back();
+        if (next[s] != none) {
+          stack.push_back(next[s]);
+          next[s] = sibling_[next[s]];
         } else {
-          order.push_back(s);
+          visit(s);
           stack.pop_back();
         }
       }
     }
-    return order;
   }
 
-  const FundamentalSupernode& operator[](int s) const { return supernodes_[s]; }
-  const std::vector<int>& children(int s) const { return children_[s]; }
+  /// Calls visit(v) for the vertices of the columns, in the order of their elimination.
+  template <typename Visit>
+  void for_columns(int s, const Visit& visit) const
+  {
+    for (int member = first_member_[s]; member != none; member = next_member_[member])
+      for (int j = all_.first_column[member]; j < all_.first_column[member + 1]; ++j)
+        visit(all_.order[j]);
+  }
+  template <typename Visit>
+  void for_below(int s, const Visit& visit) const
+  {
+    for (const int i : all_.below_of(s)) visit(all_.order[i]);
+  }
+  /// -1 for a root.
+  int parent(int s) const { return all_.parent[s]; }
+  int size() const { return all_.size(); }
 
  private:
-  double rows_of(const std::vector<int>& vertices) const
-  {
-    return std::accumulate(vertices.begin(), vertices.end(), 0.0,
-                           [&](double sum, int v) { return sum + graph_.n_rows[v]; });
-  }
+  static constexpr int none = -1;
 
   /// Narrow supernodes waste more in calls and gathers than in zeros.
   bool pays(int child, int parent) const
@@ -76,53 +100,66 @@ class Amalgamation {
 
   void take_up_children(int s)
   {
-    std::vector<int> candidates = std::move(children_[s]), left;
-    children_[s].clear();
-    std::ranges::sort(candidates, [&](int a, int b) { return below_[a] > below_[b]; });
-    for (const int child : candidates) {
+    candidates_.clear();
+    left_.clear();
+    for (int child = first_child_[s]; child != none; child = sibling_[child])
+      candidates_.push_back(child);
+    std::ranges::sort(candidates_, [&](int a, int b) { return below_[a] > below_[b]; });
+    for (const int child : candidates_) {
       if (!pays(child, s)) {
-        left.push_back(child);
+        left_.push_back(child);
         continue;
       }
-      std::vector<int>& taken = supernodes_[child].columns;
-      std::vector<int>& columns = supernodes_[s].columns;
-      columns.insert(columns.begin(), taken.begin(), taken.end());
+      next_member_[last_member_[child]] = first_member_[s];  // its columns come first
+      first_member_[s] = first_member_[child];
       columns_[s] += columns_[child];
       entries_[s] += entries_[child];
-      left.insert(left.end(), children_[child].begin(), children_[child].end());
+      for (int k = first_child_[child]; k != none; k = sibling_[k]) left_.push_back(k);
     }
-    for (const int child : left) supernodes_[child].parent = s;
-    children_[s] = std::move(left);
+    int* link = &first_child_[s];
+    for (const int child : left_) {
+      all_.parent[child] = s;
+      *link = child;
+      link = &sibling_[child];
+    }
+    *link = none;
   }
 
-  const QuotientGraph& graph_;
-  std::vector<FundamentalSupernode> supernodes_;
-  std::vector<std::vector<int>> children_;
-  std::vector<double> columns_, below_;  ///< rows of the matrix
-  std::vector<double> entries_;          ///< without the stored zeros
+  FundamentalSupernodes all_;
+  std::vector<int> first_child_, sibling_;
+  std::vector<int> next_member_, first_member_, last_member_;  ///< those that one has taken up
+  std::vector<double> columns_, below_;                        ///< rows of the matrix
+  std::vector<double> entries_;                                ///< without the stored zeros
+  std::vector<int> candidates_, left_;
 };
 
 /// The vertices in the order of their first rows' places.
 std::vector<int> order_of_vertices(const QuotientGraph& graph, const std::vector<int>& places)
 {
-  std::vector<int> first_place(graph.n_vertices(), static_cast<int>(places.size()) + 1);
-  for (std::size_t row = 0; row < places.size(); ++row) {
-    int& first = first_place[graph.vertex_of_row[row]];
-    first = std::min(first, places[row]);
-  }
-  std::vector<int> order(graph.n_vertices());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, [&](int a, int b) { return first_place[a] < first_place[b]; });
+  std::vector<int> row_at(places.size() + 2, -1), order;
+  for (std::size_t row = 0; row < places.size(); ++row) row_at[places[row]] = static_cast<int>(row);
+  std::vector<char> is_taken(graph.n_vertices(), 0);
+  for (const int row : row_at)
+    if (row != -1 && std::exchange(is_taken[graph.vertex_of_row[row]], 1) == 0)
+      order.push_back(graph.vertex_of_row[row]);
+  if (std::ssize(order) != graph.n_vertices())
+    throw Error("assembly_tree: two rows have the same place in the elimination");
   return order;
 }
 
-std::vector<std::vector<int>> rows_of_vertices(const QuotientGraph& graph)
-{
-  std::vector<std::vector<int>> rows(graph.n_vertices());
-  for (std::size_t row = 0; row < graph.vertex_of_row.size(); ++row)
-    rows[graph.vertex_of_row[row]].push_back(static_cast<int>(row));
-  return rows;
-}
+/// The rows of each vertex.
+struct RowsOfVertices {
+  std::vector<int> starts, rows;
+
+  explicit RowsOfVertices(const QuotientGraph& graph)
+      : starts(graph.n_vertices() + 1, 0), rows(graph.vertex_of_row.size())
+  {
+    std::inclusive_scan(graph.n_rows.begin(), graph.n_rows.end(), starts.begin() + 1);
+    std::vector<int> next(starts.begin(), starts.end() - 1);
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      rows[next[graph.vertex_of_row[row]]++] = static_cast<int>(row);
+  }
+};
 
 }  // namespace
 
@@ -142,31 +179,39 @@ AssemblyTree assembly_tree(const QuotientGraph& graph, const std::vector<int>& p
 {
   const Amalgamation supernodes(graph,
                                 fundamental_supernodes(graph, order_of_vertices(graph, places)));
-  const std::vector<std::vector<int>> rows = rows_of_vertices(graph);
-  const std::vector<int> order = supernodes.postorder();
+  const RowsOfVertices rows(graph);
   AssemblyTree tree{.position = std::vector<int>(places.size()),
                     .row = {},
                     .first_column = {0},
-                    .parent = std::vector<int>(order.size(), -1),
+                    .parent = {},
                     .below_starts = {0},
                     .below_rows = {}};
-  std::vector<int> number(order.empty() ? 0 : *std::ranges::max_element(order) + 1, -1);
-  for (int s = 0; s < std::ssize(order); ++s) {
-    for (const int v : supernodes[order[s]].columns) {
-      for (const int r : rows[v]) {
-        tree.position[r] = static_cast<int>(tree.row.size());
-        tree.row.push_back(r);
+  tree.row.reserve(places.size());
+  std::vector<int> number(supernodes.size(), -1), first_position(graph.n_vertices());
+  std::vector<int> left;  // in postorder
+  supernodes.in_postorder([&](int s) {
+    number[s] = static_cast<int>(left.size());
+    left.push_back(s);
+    supernodes.for_columns(s, [&](int v) {
+      first_position[v] = static_cast<int>(tree.row.size());
+      for (int k = rows.starts[v]; k < rows.starts[v + 1]; ++k) {
+        tree.position[rows.rows[k]] = static_cast<int>(tree.row.size());
+        tree.row.push_back(rows.rows[k]);
       }
-    }
+    });
     tree.first_column.push_back(static_cast<int>(tree.row.size()));
-    number[order[s]] = s;
-  }
-  for (int s = 0; s < std::ssize(order); ++s) {
-    for (const int child : supernodes.children(order[s])) tree.parent[number[child]] = s;
-    for (const int v : supernodes[order[s]].below)
-      for (const int r : rows[v]) tree.below_rows.push_back(tree.position[r]);
-    std::sort(tree.below_rows.begin() + std::ptrdiff_t(tree.below_starts.back()),
-              tree.below_rows.end());
+  });
+  std::vector<int> firsts;  // of the vertices below one of them
+  for (const int s : left) {
+    const int parent = supernodes.parent(s);
+    tree.parent.push_back(parent == -1 ? -1 : number[parent]);
+    firsts.clear();
+    supernodes.for_below(s, [&](int v) { firsts.push_back(first_position[v]); });
+    if (!std::ranges::is_sorted(firsts)) std::ranges::sort(firsts);
+    for (const int first : firsts) {
+      const int n = graph.n_rows[graph.vertex_of_row[tree.row[first]]];
+      for (int k = 0; k < n; ++k) tree.below_rows.push_back(first + k);
+    }
     tree.below_starts.push_back(tree.below_rows.size());
   }
   return tree;

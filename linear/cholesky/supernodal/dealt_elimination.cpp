@@ -67,10 +67,14 @@ void gather_rows(const DealtFront& front, const SomeRows& some, const Workspace&
   for (int q = 0; q < std::ssize(counts); ++q) {
     const double* from = work.received + at[std::size_t(q)];
     const std::size_t n_of_rank = std::size_t(counts[std::size_t(q)] / some.n_columns);
-    front.rows.for_rows(q, some.first, some.last, [&](int row) {
+    front.rows.for_tiles(q, [&](const RowTile& tile) {
+      const int first = std::max(tile.first, some.first);
+      const int n_rows = std::min(tile.first + tile.n_rows, some.last) - first;
+      if (n_rows <= 0) return;
+      double* to = all + std::size_t(first - some.first);
       for (std::size_t c = 0; c < std::size_t(some.n_columns); ++c)
-        all[std::size_t(row - some.first) + c * n] = from[c * n_of_rank];
-      ++from;
+        std::copy_n(from + c * n_of_rank, n_rows, to + c * n);
+      from += n_rows;
     });
   }
 }

@@ -59,75 +59,115 @@ std::vector<int> postorder(const std::vector<int>& parent)
   return order;
 }
 
-/// Symbolic factorisation, column by column in postorder.
+/// Symbolic factorisation, supernode by supernode in postorder.
 class Structures {
  public:
-  Structures(const QuotientGraph& graph, const std::vector<int>& order)
-      : graph_(graph), order_(order), place_(inverse(order)), seen_by_(order.size(), -1)
-  {}
-
-  /// Places below column j, ascending: its neighbours, and what its children hand on. The longest
-  /// of these lists, which ascend, is most of it.
-  std::vector<int> below(int j, const std::vector<const std::vector<int>*>& of_children)
+  Structures(const QuotientGraph& graph, std::vector<int> order)
+      : graph_(graph),
+        place_(inverse(order)),
+        seen_by_(order.size(), none),
+        first_child_(order.size(), none)
   {
-    std::vector<int> result;
-    const auto add = [&](int i) {
-      if (i <= j || seen_by_[i] == j) return;
-      seen_by_[i] = j;
-      result.push_back(i);
-    };
-    const auto longest = std::ranges::max_element(
-        of_children, {}, [](const std::vector<int>* child) { return child->size(); });
-    if (longest != of_children.end()) {
-      result.reserve((*longest)->size());
-      std::ranges::for_each(**longest, add);
+    found_.order = std::move(order);
+  }
+
+  FundamentalSupernodes all()
+  {
+    for (int j = 0; j < std::ssize(found_.order); ++j) {
+      const int child = first_child_[j];
+      const bool is_only = child != none && sibling_[child] == none;
+      if (is_only && has_neighbours_below(j, child))
+        ++found_.below_first[child];  // without j, which is its newest column
+      else
+        add(j);
+      if (const int s = found_.size() - 1; !found_.below_of(s).empty()) wait(s);
     }
-    const auto n_sorted = std::ssize(result);
-    for (int k = graph_.edges.starts[order_[j]]; k < graph_.edges.starts[order_[j] + 1]; ++k)
-      add(place_[graph_.edges.neighbours[k]]);
-    for (auto child = of_children.begin(); child != of_children.end(); ++child)
-      if (child != longest) std::ranges::for_each(**child, add);
-    std::sort(result.begin() + n_sorted, result.end());
-    std::inplace_merge(result.begin(), result.begin() + n_sorted, result.end());
-    return result;
+    found_.first_column.push_back(static_cast<int>(found_.order.size()));
+    return std::move(found_);
   }
 
  private:
+  static constexpr int none = -1;
+
+  std::span<const int> neighbours(int j) const
+  {
+    const int v = found_.order[j], first = graph_.edges.starts[v];
+    return std::span(graph_.edges.neighbours)
+        .subspan(std::size_t(first), std::size_t(graph_.edges.starts[v + 1] - first));
+  }
+
+  /// Whether all that column j is joined to later is below the newest supernode.
+  bool has_neighbours_below(int j, int s) const
+  {
+    return std::ranges::all_of(neighbours(j), [&](int v) {
+      const int i = place_[v];
+      return i <= j || seen_by_[i] == s;
+    });
+  }
+
+  /// s becomes a child of the first column below it.
+  void wait(int s)
+  {
+    int& first = first_child_[found_.below_of(s).front()];
+    if (first == s) return;
+    sibling_[s] = first;
+    first = s;
+  }
+
+  /// A supernode that begins with column j. Below it are its neighbours, and what its children hand
+  /// on. The longest of these lists, which ascend, is most of it.
+  void add(int j)
+  {
+    const int s = found_.size();
+    std::vector<int>& below = found_.below;
+    const std::size_t first = below.size();
+    const auto take = [&](int i) {
+      if (i <= j || seen_by_[i] == s) return;
+      seen_by_[i] = s;
+      below.push_back(i);
+    };
+    const auto take_child = [&](int child) {
+      for (std::size_t k = found_.below_first[child]; k < found_.below_last[child]; ++k)
+        take(below[k]);
+    };
+    int longest = none;
+    for (int child = first_child_[j]; child != none; child = sibling_[child]) {
+      found_.parent[child] = s;
+      if (longest == none || found_.below_of(child).size() > found_.below_of(longest).size())
+        longest = child;
+    }
+    if (longest != none) take_child(longest);
+    const auto n_sorted = std::ssize(below);
+    for (const int v : neighbours(j)) take(place_[v]);
+    for (int child = first_child_[j]; child != none; child = sibling_[child])
+      if (child != longest) take_child(child);
+    const auto begin = below.begin() + std::ptrdiff_t(first), middle = below.begin() + n_sorted;
+    std::sort(middle, below.end());
+    std::inplace_merge(begin, middle, below.end());
+    found_.first_column.push_back(j);
+    found_.parent.push_back(none);
+    found_.below_first.push_back(first);
+    found_.below_last.push_back(below.size());
+    sibling_.push_back(none);
+  }
+
   const QuotientGraph& graph_;
-  const std::vector<int>& order_;
-  std::vector<int> place_, seen_by_;
+  std::vector<int> place_;        ///< of each vertex
+  std::vector<int> seen_by_;      ///< last supernode that a place is below of
+  std::vector<int> first_child_;  ///< of each column: a supernode whose parent begins with it
+  std::vector<int> sibling_;      ///< of each supernode
+  FundamentalSupernodes found_;
 };
 
 }  // namespace
 
-std::vector<FundamentalSupernode> fundamental_supernodes(const QuotientGraph& graph,
-                                                         const std::vector<int>& wanted)
+FundamentalSupernodes fundamental_supernodes(const QuotientGraph& graph,
+                                             const std::vector<int>& wanted)
 {
   std::vector<int> order;
+  order.reserve(wanted.size());
   for (const int place : postorder(elimination_tree(graph, wanted))) order.push_back(wanted[place]);
-  Structures structures(graph, order);
-  std::vector<FundamentalSupernode> supernodes;
-  std::vector<std::vector<int>> children(order.size());  // supernodes whose parent is this column
-  for (int j = 0; j < std::ssize(order); ++j) {
-    std::vector<const std::vector<int>*> of_children;
-    for (const int child : children[j]) of_children.push_back(&supernodes[child].below);
-    std::vector<int> below = structures.below(j, of_children);
-    int self = children[j].size() == 1 ? children[j][0] : -1;
-    if (self == -1 || supernodes[self].below.size() != below.size() + 1) {
-      self = static_cast<int>(supernodes.size());
-      for (const int child : children[j]) supernodes[child].parent = self;
-      supernodes.emplace_back();
-    }
-    supernodes[self].columns.push_back(j);
-    supernodes[self].below = std::move(below);
-    const std::vector<int>& under = supernodes[self].below;
-    if (!under.empty()) children[under[0]].push_back(self);
-  }
-  for (FundamentalSupernode& s : supernodes) {
-    for (int& column : s.columns) column = order[column];
-    for (int& row : s.below) row = order[row];
-  }
-  return supernodes;
+  return Structures(graph, std::move(order)).all();
 }
 
 }  // namespace chladni::linear

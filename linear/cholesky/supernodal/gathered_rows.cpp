@@ -1,40 +1,121 @@
 #include "linear/cholesky/supernodal/gathered_rows.hpp"
 
+#include <numeric>
+
+#include "linear/kernels/gather.hpp"
+
 namespace chladni::linear {
 
-GatheredRows::GatheredRows(Mat A, const std::vector<char>& is_needed)
+namespace {
+
+/// Numbers for each rank, one rank after the other.
+template <typename T>
+struct ByRank {
+  std::vector<T> numbers;
+  std::vector<int> counts;
+};
+
+template <typename T>
+ByRank<T> exchanged(const ByRank<T>& sent, MPI_Datatype type, MPI_Comm comm)
+{
+  ByRank<T> received{.numbers = {}, .counts = std::vector<int>(sent.counts.size())};
+  MPI_Alltoall(sent.counts.data(), 1, MPI_INT, received.counts.data(), 1, MPI_INT, comm);
+  const std::vector<int> from = offsets(sent.counts), to = offsets(received.counts);
+  received.numbers.resize(std::size_t(to.back()));
+  MPI_Alltoallv(sent.numbers.data(), sent.counts.data(), from.data(), type, received.numbers.data(),
+                received.counts.data(), to.data(), type, comm);
+  return received;
+}
+
+/// Rows, by the rank that owns them.
+ByRank<PetscInt> by_owner(Mat A, const std::vector<PetscInt>& rows)
+{
+  const PetscInt* first_rows = nullptr;
+  petsc::check(MatGetOwnershipRanges(A, &first_rows));
+  ByRank<PetscInt> asked{.numbers = rows,
+                         .counts = std::vector<int>(petsc::size(petsc::communicator(A)), 0)};
+  std::size_t owner = 0;
+  for (const PetscInt row : rows) {
+    while (row >= first_rows[owner + 1]) ++owner;
+    ++asked.counts[owner];
+  }
+  return asked;
+}
+
+}  // namespace
+
+GatheredRows::GatheredRows(Mat A, const std::vector<char>& is_needed,
+                           const std::vector<int>& position)
 {
   std::vector<PetscInt> rows;
-  for (std::size_t row = 0; row < is_needed.size(); ++row)
-    if (is_needed[row] != 0) rows.push_back(static_cast<PetscInt>(row));
-  matrix_ = A;
-  if (petsc::size(petsc::communicator(A)) > 1) {
-    petsc::IndexSet needed, all;
-    petsc::check(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(rows.size()), rows.data(),
-                                 PETSC_USE_POINTER, needed.put()));
-    petsc::check(
-        ISCreateStride(PETSC_COMM_SELF, static_cast<PetscInt>(is_needed.size()), 0, 1, all.put()));
-    IS row_set = needed, column_set = all;
-    petsc::check(MatCreateSubMatrices(A, 1, &row_set, &column_set, MAT_INITIAL_MATRIX, &gathered_));
-    matrix_ = gathered_[0];
+  rows_.place.assign(is_needed.size(), -1);
+  for (std::size_t row = 0; row < is_needed.size(); ++row) {
+    if (is_needed[row] == 0) continue;
+    rows_.place[row] = static_cast<int>(rows.size());
+    rows.push_back(static_cast<PetscInt>(row));
   }
+  if (petsc::size(petsc::communicator(A)) == 1)
+    borrow(A);
+  else
+    gather(A, rows, position);
+}
+
+void GatheredRows::borrow(Mat A)
+{
   PetscInt n = 0;
   PetscBool done = PETSC_FALSE;
   petsc::check(
-      MatGetRowIJ(matrix_, 0, PETSC_FALSE, PETSC_FALSE, &n, &rows_.starts, &rows_.columns, &done));
+      MatGetRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &n, &rows_.starts, &rows_.columns, &done));
   if (!done) throw Error("supernodal: the matrix is not of type AIJ; convert it with MatConvert");
-  petsc::check(MatSeqAIJGetArrayRead(matrix_, &rows_.values));
-  rows_.place.assign(is_needed.size(), -1);
-  for (std::size_t i = 0; i < rows.size(); ++i) rows_.place[rows[i]] = static_cast<int>(i);
+  petsc::check(MatSeqAIJGetArrayRead(A, &rows_.values));
+  borrowed_ = A;
+}
+
+void GatheredRows::gather(Mat A, const std::vector<PetscInt>& rows,
+                          const std::vector<int>& position)
+{
+  const MPI_Comm comm = petsc::communicator(A);
+  const ByRank<PetscInt> asked = exchanged(by_owner(A, rows), MPIU_INT, comm);
+  ByRank<PetscInt> lengths{.numbers = {}, .counts = asked.counts};
+  ByRank<PetscInt> columns{.numbers = {}, .counts = {}};
+  ByRank<PetscScalar> values;
+  auto row = asked.numbers.begin();
+  for (const int n_rows : asked.counts) {
+    const std::size_t before = columns.numbers.size();
+    for (const auto last = row + n_rows; row != last; ++row) {
+      PetscInt n = 0, n_kept = 0;
+      const PetscInt* row_columns = nullptr;
+      const PetscScalar* row_values = nullptr;
+      petsc::check(MatGetRow(A, *row, &n, &row_columns, &row_values));
+      for (PetscInt k = 0; k < n; ++k) {
+        if (position[row_columns[k]] < position[*row]) continue;
+        columns.numbers.push_back(row_columns[k]);
+        values.numbers.push_back(row_values[k]);
+        ++n_kept;
+      }
+      petsc::check(MatRestoreRow(A, *row, &n, &row_columns, &row_values));
+      lengths.numbers.push_back(n_kept);
+    }
+    columns.counts.push_back(static_cast<int>(columns.numbers.size() - before));
+  }
+  values.counts = columns.counts;
+  const std::vector<PetscInt> n_entries = exchanged(lengths, MPIU_INT, comm).numbers;
+  starts_.assign(n_entries.size() + 1, 0);
+  std::inclusive_scan(n_entries.begin(), n_entries.end(), starts_.begin() + 1);
+  columns_ = exchanged(columns, MPIU_INT, comm).numbers;
+  values_ = exchanged(values, MPIU_SCALAR, comm).numbers;
+  rows_.starts = starts_.data();
+  rows_.columns = columns_.data();
+  rows_.values = values_.data();
 }
 
 GatheredRows::~GatheredRows()
 {
+  if (borrowed_ == nullptr) return;
   PetscInt n = 0;
   PetscBool done = PETSC_FALSE;
-  MatSeqAIJRestoreArrayRead(matrix_, &rows_.values);
-  MatRestoreRowIJ(matrix_, 0, PETSC_FALSE, PETSC_FALSE, &n, &rows_.starts, &rows_.columns, &done);
-  if (gathered_ != nullptr) MatDestroySubMatrices(1, &gathered_);
+  MatSeqAIJRestoreArrayRead(borrowed_, &rows_.values);
+  MatRestoreRowIJ(borrowed_, 0, PETSC_FALSE, PETSC_FALSE, &n, &rows_.starts, &rows_.columns, &done);
 }
 
 }  // namespace chladni::linear

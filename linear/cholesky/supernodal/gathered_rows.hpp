@@ -10,16 +10,22 @@ namespace chladni::linear {
 class GatheredRows {
  public:
   /// @param is_needed  [n rows]
+  /// @param position   [n rows] in the elimination: of a row, the entries in columns that come
+  ///                   before it are left out where rows are gathered
   /// @note   Collective.
-  GatheredRows(Mat A, const std::vector<char>& is_needed);
+  GatheredRows(Mat A, const std::vector<char>& is_needed, const std::vector<int>& position);
   ~GatheredRows();
   GatheredRows(const GatheredRows&) = delete;
   GatheredRows& operator=(const GatheredRows&) = delete;
   const MatrixRows& rows() const { return rows_; }
 
  private:
-  Mat matrix_ = nullptr;
-  Mat* gathered_ = nullptr;
+  void borrow(Mat A);
+  void gather(Mat A, const std::vector<PetscInt>& rows, const std::vector<int>& position);
+
+  Mat borrowed_ = nullptr;
+  std::vector<PetscInt> starts_, columns_;
+  std::vector<PetscScalar> values_;
   MatrixRows rows_{};
 };
 

@@ -117,24 +117,28 @@ QuotientGraph quotient_graph(Mat A)
   QuotientGraph graph{.vertex_of_row = gather_on_all(std::move(own.of_row), MPI_INT, comm),
                       .n_rows = gather_on_all(std::move(own.n_rows), MPI_INT, comm),
                       .edges = {}};
-  std::vector<int> seen_by(graph.n_vertices(), -1), degrees, neighbours;
+  std::vector<int> seen_by(graph.n_vertices(), -1);
+  Adjacency here;
   for (int v = 0; v < n_own; ++v) {
     const int self = before + v;
-    const std::size_t n_before = neighbours.size();
     seen_by[self] = self;
     with_row(A, own.representative[v], [&](const PetscInt* begin, const PetscInt* end) {
       for (const PetscInt* column = begin; column != end; ++column) {
         const int other = graph.vertex_of_row[*column];
         if (seen_by[other] == self) continue;
         seen_by[other] = self;
-        neighbours.push_back(other);
+        here.neighbours.push_back(other);
       }
     });
-    degrees.push_back(static_cast<int>(neighbours.size() - n_before));
+    here.starts.push_back(static_cast<int>(here.neighbours.size()));
   }
-  degrees = gather_on_all(std::move(degrees), MPI_INT, comm);
-  graph.edges = symmetrized({.starts = offsets(degrees),
-                             .neighbours = gather_on_all(std::move(neighbours), MPI_INT, comm)});
+  std::uint64_t lacking = lacking_partners(here, before);
+  MPI_Allreduce(MPI_IN_PLACE, &lacking, 1, MPI_UINT64_T, MPI_SUM, comm);
+  std::vector<int> degrees(own.representative.size());
+  for (int v = 0; v < n_own; ++v) degrees[v] = here.starts[v + 1] - here.starts[v];
+  graph.edges = {.starts = offsets(gather_on_all(std::move(degrees), MPI_INT, comm)),
+                 .neighbours = gather_on_all(std::move(here.neighbours), MPI_INT, comm)};
+  if (lacking != 0) graph.edges = symmetrized(std::move(graph.edges));
   return graph;
 }
 

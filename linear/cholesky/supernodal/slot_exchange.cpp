@@ -65,34 +65,34 @@ void get(const double* panel, const std::vector<int>& slots, double* to)
 
 }  // namespace
 
-SlotExchange::SlotExchange(const RowRange& here, const std::vector<RowSlot>& rows)
-    : comm_(here.comm)
+SlotExchange::SlotExchange(MPI_Comm comm, const std::vector<int>& rows, const RowSlots& slots)
+    : comm_(comm)
 {
   const int n_ranks = petsc::size(comm_), rank = petsc::rank(comm_);
-  std::vector<std::vector<int>> rows_of_rank(n_ranks);
-  for (PetscInt row = here.first; row < here.last; ++row) {
-    const RankGroup& group = rows[row].group;
-    rows_of_rank[group.has(rank) ? rank : group.first].push_back(row);
+  std::vector<std::vector<int>> rows_of_rank(n_ranks);  // their places in X
+  for (int i = 0; i < std::ssize(rows); ++i) {
+    const RankGroup group = slots.group(rows[i]);
+    rows_of_rank[group.has(rank) ? rank : group.first].push_back(i);
   }
+  std::vector<int> sent;
   slot_counts_.resize(n_ranks);
   for (const std::vector<int>& some : rows_of_rank) {
     row_counts_.push_back(static_cast<int>(some.size()));
     rows_.insert(rows_.end(), some.begin(), some.end());
+    for (const int i : some) sent.push_back(rows[i]);
   }
   MPI_Alltoall(row_counts_.data(), 1, MPI_INT, slot_counts_.data(), 1, MPI_INT, comm_);
   row_starts_ = offsets(row_counts_);
   slot_starts_ = offsets(slot_counts_);
   slots_.resize(slot_starts_.back());
-  MPI_Alltoallv(rows_.data(), row_counts_.data(), row_starts_.data(), MPI_INT, slots_.data(),
+  MPI_Alltoallv(sent.data(), row_counts_.data(), row_starts_.data(), MPI_INT, slots_.data(),
                 slot_counts_.data(), slot_starts_.data(), MPI_INT, comm_);
-  std::vector<char> is_got(rows.size(), 0);
-  for (int& row : slots_) {
-    is_got[row] = 1;
-    row = rows[row].slot;
-  }
-  for (std::size_t row = 0; row < rows.size(); ++row)
-    if (rows[row].group.has(rank) && is_got[row] == 0) zero_slots_.push_back(rows[row].slot);
-  for (int& row : rows_) row -= here.first;
+  for (int& row : slots_) row = slots.slot(row);
+  const int last = slots.here.empty() ? -1 : std::ranges::max(slots.here);
+  std::vector<char> is_got(std::size_t(last + 1), 0);
+  for (const int slot : slots_) is_got[slot] = 1;
+  for (const int slot : slots.here)
+    if (is_got[slot] == 0) zero_slots_.push_back(slot);
 }
 
 void SlotExchange::to_slots(LocalColumns X, PetscInt first, Panels panels) const

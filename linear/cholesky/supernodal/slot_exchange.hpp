@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -9,16 +10,11 @@
 
 namespace chladni::linear {
 
-/// The rows first .. last - 1 of a matrix, which this rank owns.
-struct RowRange {
-  MPI_Comm comm;
-  PetscInt first, last;
-};
-
-/// The ranks that eliminate a row, and its slot in the panels of this rank (-1: none).
-struct RowSlot {
-  RankGroup group;
-  int slot;
+/// Where some rows of a matrix are eliminated.
+struct RowSlots {
+  std::function<RankGroup(int row)> group;  ///< the ranks that eliminate a row
+  std::function<int(int row)> slot;         ///< of a row in the panels of this rank
+  std::vector<int> here;                    ///< all of these slots on this rank
 };
 
 /// Moves right-hand sides and solutions between the rows of a matrix, distributed as in PETSc, and
@@ -27,9 +23,9 @@ struct RowSlot {
 class SlotExchange {
  public:
   SlotExchange() = default;
-  /// @param rows  [n] all rows, in the order of the matrix
+  /// @param rows  those of the matrix that this rank owns, in the order of X
   /// @note   Collective.
-  SlotExchange(const RowRange& here, const std::vector<RowSlot>& rows);
+  SlotExchange(MPI_Comm comm, const std::vector<int>& rows, const RowSlots& slots);
 
   /// Copies columns of X, from `first` on, into panels. The slots of a row are zero on the other
   /// ranks that eliminate it.

@@ -17,7 +17,7 @@ SupernodalFactor::Eliminated SupernodalFactor::eliminate(Mat A, const Visit& vis
 {
   std::vector<char> is_needed(tree_.row.size());
   for (std::size_t p = 0; p < slot_.size(); ++p) is_needed[tree_.row[p]] = slot_[p] != -1;
-  const GatheredRows rows(A, is_needed);
+  const GatheredRows rows(A, is_needed, tree_.position);
   Fronts fronts(tree_, rows.rows());
   int n_negative = 0;
   for (const bool is_shared : {false, true}) {

@@ -88,11 +88,10 @@ void SupernodalFactor::analyze(Mat A, const std::vector<int>& places)
   number_trees();
   whole_.supernodes = of_trees(std::vector<char>(tree_.n_supernodes(), 1));
   number_slots();
-  here_ = {.comm = comm_, .first = 0, .last = 0};
-  petsc::check(MatGetOwnershipRange(A, &here_.first, &here_.last));
-  std::vector<int> rows(n);
-  std::iota(rows.begin(), rows.end(), 0);
-  whole_.exchange = exchange_of(rows, here_);
+  petsc::check(MatGetOwnershipRange(A, &first_row_, &last_row_));
+  std::vector<int> rows(std::size_t(last_row_ - first_row_));
+  std::iota(rows.begin(), rows.end(), first_row_);
+  whole_.exchange = exchange_of(rows, whole_.supernodes);
   MatInfo info{};
   petsc::check(MatGetInfo(A, MAT_GLOBAL_SUM, &info));
   n_entries_ = info.nz_used;
@@ -159,7 +158,7 @@ CholeskyFactor::Memory SupernodalFactor::forecast() const
   const auto kept = double(tile_starts_.back());
   const double own = front + peak_of_left_overs(tree_, whole_.supernodes.own);
   const double work = std::max(own, front + shared_front + 2.0 * left_over);
-  const double gathered = n_gathered_ * (1.0 + 0.5);  // with its index
+  const double gathered = n_gathered_ * (1.0 + 0.5);  // with its index, and as sent
   return {.factorization_MiB = (kept + work + gathered) / numbers_in_MiB,
           .factor_MiB = (kept + double(n_slots_) * panel_width) / numbers_in_MiB,
           .entries_MiB = kept / numbers_in_MiB};

@@ -96,7 +96,7 @@ class SupernodalFactor : public CholeskyFactor {
   bool is_shared(int s) const { return group_[s].size() > 1; }
   bool is_counted_here(int s) const { return group_[s].first == rank_; }
   Supernodes of_trees(const std::vector<char>& roots) const;
-  SlotExchange exchange_of(const std::vector<int>& rows, const RowRange& here) const;
+  SlotExchange exchange_of(const std::vector<int>& own_rows, const Supernodes& supernodes) const;
   /// What uses the columns of a supernode after its elimination, by one rank or by a group.
   struct Visit {
     std::function<void(const Fronts& fronts, int s)> own;
@@ -149,7 +149,7 @@ class SupernodalFactor : public CholeskyFactor {
   std::vector<int> below_slots_;          ///< for all below_rows of the tree
   AlignedNumbers tiles_, panel_values_;
   SupernodalPart whole_;
-  RowRange here_{};  ///< of the matrix
+  PetscInt first_row_ = 0, last_row_ = 0;  ///< of the matrix that this rank owns, and behind them
   double n_entries_ = 0.0;
   /// Approximate number of entries in the rows gathered from other ranks.
   double n_gathered_ = 0.0;

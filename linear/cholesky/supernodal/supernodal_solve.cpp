@@ -6,7 +6,6 @@
 #include "common/index_sets.hpp"
 #include "linear/cholesky/supernodal/supernodal_factor.hpp"
 #include "linear/kernels/dense_matrices.hpp"
-#include "linear/kernels/gather.hpp"
 #include "linear/kernels/tile_kernels.hpp"
 #include "linear/log_event.hpp"
 #include "linear/progress.hpp"
@@ -70,31 +69,41 @@ Supernodes SupernodalFactor::of_trees(const std::vector<char>& roots) const
   return found;
 }
 
-SlotExchange SupernodalFactor::exchange_of(const std::vector<int>& rows, const RowRange& here) const
+SlotExchange SupernodalFactor::exchange_of(const std::vector<int>& own_rows,
+                                           const Supernodes& supernodes) const
 {
-  std::vector<RowSlot> slots;
-  for (const int row : rows)
-    slots.push_back({group_[supernode_of_row(row)], slot_[tree_.position[row]]});
-  return {here, slots};
+  RowSlots slots{.group = [&](int row) { return group_[supernode_of_row(row)]; },
+                 .slot = [&](int row) { return slot_[tree_.position[row]]; },
+                 .here = {}};
+  const auto add = [&](const std::vector<int>& some) {
+    for (const int s : some)
+      for (int p = tree_.first_column[s]; p < tree_.first_column[s + 1]; ++p)
+        slots.here.push_back(slot_[p]);
+  };
+  add(supernodes.own);
+  std::ranges::for_each(supernodes.shared, add);
+  return {comm_, own_rows, slots};
 }
 
 SupernodalPart SupernodalFactor::part(IS rows) const
 {
   const std::vector<int> own = petsc::own_indices(rows);
-  const std::vector<int> all = gather_on_all(own, MPI_INT, comm_);
   std::vector<char> roots(tree_.n_supernodes(), 0);
-  for (const int row : all) roots[tree_of_[supernode_of_row(row)]] = 1;
-  std::ptrdiff_t n_coupled = 0;
+  for (const int row : own) roots[tree_of_[supernode_of_row(row)]] = 1;
+  MPI_Allreduce(MPI_IN_PLACE, roots.data(), tree_.n_supernodes(), MPI_CHAR, MPI_MAX, comm_);
+  auto n_rows = static_cast<int>(own.size());
+  MPI_Allreduce(MPI_IN_PLACE, &n_rows, 1, MPI_INT, MPI_SUM, comm_);
+  int n_coupled = 0;
   for (int s = 0; s < tree_.n_supernodes(); ++s)
     if (roots[tree_of_[s]] != 0) n_coupled += tree_.n_columns(s);
-  if (n_coupled != std::ssize(all)) {
+  if (n_coupled != n_rows) {
     throw Error(fmt::format(
         "SupernodalFactor::part: the {} rows of a part are coupled to {} others; take all of them",
-        all.size(), n_coupled - std::ssize(all)));
+        n_rows, n_coupled - n_rows));
   }
-  RowRange here{.comm = comm_, .first = petsc::indices_before(rows), .last = 0};
-  here.last = here.first + static_cast<int>(own.size());
-  return {.supernodes = of_trees(roots), .exchange = exchange_of(all, here)};
+  SupernodalPart part{.supernodes = of_trees(roots), .exchange = {}};
+  part.exchange = exchange_of(own, part.supernodes);
+  return part;
 }
 
 std::span<const int> SupernodalFactor::below_slots(int s) const
@@ -246,12 +255,11 @@ std::vector<std::vector<int>> SupernodalFactor::trees_of(const SparseColumns& B)
 
 std::vector<int> SupernodalFactor::trees_of_own_rows() const
 {
-  std::vector<int> trees(std::size_t(here_.last - here_.first));
+  std::vector<int> trees(std::size_t(last_row_ - first_row_));
   for (int s = 0; s < tree_.n_supernodes(); ++s) {
     for (int p = tree_.first_column[s]; p < tree_.first_column[s + 1]; ++p) {
       const int row = tree_.row[p];
-      if (row >= here_.first && row < here_.last)
-        trees[std::size_t(row - here_.first)] = tree_of_[s];
+      if (row >= first_row_ && row < last_row_) trees[std::size_t(row - first_row_)] = tree_of_[s];
     }
   }
   return trees;
