@@ -236,11 +236,11 @@ std::vector<int> elimination_order(Mat A, IS rows)
   const OwnBlocks blocks = own_blocks(A, rows);
   const std::vector<int> block_of = block_of_rows(A, blocks);
   BlockGraph own = own_graph(A, blocks, block_of);
-  const std::vector<int> degrees = gather_on_all(std::move(own.degrees), MPI_INT, comm);
+  const std::vector<int> own_degrees = std::move(own.degrees);
+  const std::vector<int> degrees = gather_on_all(own_degrees, MPI_INT, comm);
   if (is_dissected_together(degrees, comm)) {
     const Adjacency graph =
-        symmetrized({.starts = offsets(degrees),
-                     .neighbours = gather_on_all(std::move(own.neighbours), MPI_INT, comm)});
+        joined({.starts = offsets(own_degrees), .neighbours = std::move(own.neighbours)}, comm);
     const std::vector<int> sizes = block_sizes<int>(block_of, degrees.size());
     const std::vector<int> place = shared_dissection(graph, sizes, comm);
     return on_all_ranks(comm, [&]() -> std::vector<int> {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mpi.h>
+
 #include <cstdint>
 #include <vector>
 
@@ -19,12 +21,10 @@ struct Adjacency {
 /// @throws chladni::Error when there are more edges than METIS can count.
 Adjacency symmetrized(Adjacency graph);
 
-/// A sum of numbers for edges to vertices that follow, less that for edges to those before: zero
-/// where each edge of a graph has its partner, and else with a probability of 2^-64. It reads the
-/// graph once, where a transposed graph is written and read in another order. The sums of parts of
-/// a graph add up.
-/// @param first  number of the first vertex of `part` in the graph
-std::uint64_t lacking_partners(const Adjacency& part, int first);
+/// The same of a graph whose vertices the ranks have, one rank after the other, on all ranks.
+/// @param part  the vertices of this rank; their neighbours are numbered over all ranks
+/// @note   Collective.
+Adjacency joined(Adjacency part, MPI_Comm comm);
 
 /// A number whose bits all depend on all bits of z (the finaliser of splitmix64).
 inline std::uint64_t mixed(std::uint64_t z)

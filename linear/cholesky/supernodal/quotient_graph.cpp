@@ -132,13 +132,7 @@ QuotientGraph quotient_graph(Mat A)
     });
     here.starts.push_back(static_cast<int>(here.neighbours.size()));
   }
-  std::uint64_t lacking = lacking_partners(here, before);
-  MPI_Allreduce(MPI_IN_PLACE, &lacking, 1, MPI_UINT64_T, MPI_SUM, comm);
-  std::vector<int> degrees(own.representative.size());
-  for (int v = 0; v < n_own; ++v) degrees[v] = here.starts[v + 1] - here.starts[v];
-  graph.edges = {.starts = offsets(gather_on_all(std::move(degrees), MPI_INT, comm)),
-                 .neighbours = gather_on_all(std::move(here.neighbours), MPI_INT, comm)};
-  if (lacking != 0) graph.edges = symmetrized(std::move(graph.edges));
+  graph.edges = joined(std::move(here), comm);
   return graph;
 }
 

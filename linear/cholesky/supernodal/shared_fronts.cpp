@@ -1,5 +1,7 @@
 #include "linear/cholesky/supernodal/shared_fronts.hpp"
 
+#include <algorithm>
+
 #include "linear/kernels/gather.hpp"
 
 namespace chladni::linear {
@@ -52,8 +54,8 @@ void SharedFronts::plan_exchange(int s)
   }
   sent_at_ = offsets(sent_counts_);
   received_at_ = offsets(received_counts_);
-  sent_.resize(sent_at_.back());
-  received_.resize(received_at_.back());
+  sent_.of(sent_at_.back());
+  received_.of(received_at_.back());
 }
 
 void SharedFronts::prepare(int s, const MatrixRows& A)
@@ -69,18 +71,16 @@ void SharedFronts::prepare(int s, const MatrixRows& A)
   front_.rows.for_rows(front_.place, 0, front_.rows.n_rows(),
                        [&](int row) { own_row_[row] = n++; });
   left_over_[s].assign(n_own_below * m, 0.0);
-  L_.assign(n_own * w, 0.0);
-  triangle_.resize(w * w);
-  D_.resize(w);
-  workspace_.resize(size_of_workspace(front_.rows, front_.place));
   plan_exchange(s);
-  front_.L = L_.data();
+  front_.L = L_.of(n_own * w);
   front_.rest = left_over_[s].data();
-  front_.triangle = triangle_.data();
-  front_.D = D_.data();
-  front_.workspace = workspace_.data();
+  front_.triangle = triangle_.of(w * w);
+  front_.D = D_.of(w);
+  front_.workspace = workspace_.of(size_of_workspace(front_.rows, front_.place));
+  std::fill_n(front_.L, n_own * w, 0.0);
   places_.for_entries(A, [&](int row, int column, double value) {
-    if (own_row_[row] != -1) L_[std::size_t(own_row_[row]) + std::size_t(column) * n_own] += value;
+    if (own_row_[row] != -1)
+      front_.L[std::size_t(own_row_[row]) + std::size_t(column) * n_own] += value;
   });
 }
 
@@ -88,6 +88,7 @@ void SharedFronts::prepare(int s, const MatrixRows& A)
 void SharedFronts::pack(int s)
 {
   std::vector<int> next(sent_at_.begin(), sent_at_.end() - 1);
+  double* const sent = sent_.numbers.get();
   for (const int child : own_.children(s)) {
     const std::vector<MovedRow> rows = sent_rows(child);
     if (rows.empty()) continue;
@@ -97,7 +98,7 @@ void SharedFronts::pack(int s)
     for (int j = 0; j < std::ssize(tree_.below(child)); ++j, column += rows.size()) {
       while (first < rows.size() && rows[first].row < j) ++first;
       for (std::size_t k = first; k < rows.size(); ++k)
-        sent_[next[rows[k].other]++] = column[rows[k].own];
+        sent[next[rows[k].other]++] = column[rows[k].own];
     }
     if (is_alone)
       own_.forget_left_over(child);
@@ -109,6 +110,7 @@ void SharedFronts::pack(int s)
 void SharedFronts::unpack(int s)
 {
   std::vector<int> next(received_at_.begin(), received_at_.end() - 1);
+  const double* const received = received_.numbers.get();
   const int w = front_.rows.n_columns();
   const std::size_t n_own = front_.n_own(), n_pivots = front_.n_own_pivots();
   for (const int child : own_.children(s)) {
@@ -122,7 +124,7 @@ void SharedFronts::unpack(int s)
                        ? front_.L + std::size_t(column) * n_own
                        : front_.rest + std::size_t(column - w) * (n_own - n_pivots) - n_pivots;
       for (std::size_t k = first; k < rows.size(); ++k)
-        to[rows[k].own] += received_[next[rows[k].other]++];
+        to[rows[k].own] += received[next[rows[k].other]++];
     }
   }
 }
@@ -131,8 +133,9 @@ int SharedFronts::eliminate(int s, MPI_Comm comm)
 {
   front_.comm = comm;
   pack(s);
-  MPI_Alltoallv(sent_.data(), sent_counts_.data(), sent_at_.data(), MPI_DOUBLE, received_.data(),
-                received_counts_.data(), received_at_.data(), MPI_DOUBLE, comm);
+  MPI_Alltoallv(sent_.numbers.get(), sent_counts_.data(), sent_at_.data(), MPI_DOUBLE,
+                received_.numbers.get(), received_counts_.data(), received_at_.data(), MPI_DOUBLE,
+                comm);
   unpack(s);
   return eliminate_dealt(front_);
 }

@@ -4,6 +4,7 @@
 
 #include "linear/cholesky/supernodal/dealt_elimination.hpp"
 #include "linear/cholesky/supernodal/fronts.hpp"
+#include "linear/kernels/aligned_numbers.hpp"
 
 namespace chladni::linear {
 
@@ -59,7 +60,22 @@ class SharedFronts {
                     .triangle = nullptr,
                     .D = nullptr,
                     .workspace = nullptr};
-  std::vector<double> L_, triangle_, D_, workspace_, sent_, received_;
+  /// Memory that is used again and not touched before it is written.
+  struct Buffer {
+    AlignedNumbers numbers;
+    std::size_t size = 0;
+
+    double* of(std::size_t n)
+    {
+      if (n > size) {
+        numbers.reset();
+        numbers = aligned_numbers(n);
+        size = n;
+      }
+      return numbers.get();
+    }
+  };
+  Buffer L_, triangle_, D_, workspace_, sent_, received_;
   std::vector<int> own_row_;  ///< [rows of the front] its number among the own ones; -1: not here
   std::vector<int> sent_counts_, received_counts_, sent_at_, received_at_;
 };
