@@ -62,17 +62,38 @@ void by_pieces(std::span<const int> places, const Visit& visit)
     visit(places.subspan(begin, std::min(at_once, places.size() - begin)));
 }
 
-/// Adds the displacements of the nodes at some places.
-void add_rows(std::span<const int> places, const double* values, MatrixXd& all)
-{
-  for (double& first : all.row(0)) {
-    double* column = &first;
-    for (const int place : places) {
-      double* node = column + 3 * std::ptrdiff_t(place);
-      for (int c = 0; c < 3; ++c) node[c] += *values++;
+/// The displacements of all nodes, whose memory is touched once where one rank has a node.
+class AllRows {
+ public:
+  AllRows(std::ptrdiff_t n_nodes, Eigen::Index n_columns)
+      : rows_(3 * n_nodes, n_columns), is_known_(static_cast<std::size_t>(n_nodes), 0)
+  {}
+
+  Eigen::Index n_columns() const { return rows_.cols(); }
+  /// Adds those of the nodes at some places.
+  void add(std::span<const int> places, const double* values)
+  {
+    std::vector<char> is_known;
+    for (const int place : places)
+      is_known.push_back(std::exchange(is_known_[static_cast<std::size_t>(place)], 1));
+    for (Eigen::Index j = 0; j < rows_.cols(); ++j) {
+      for (std::size_t k = 0; k < places.size(); ++k, values += 3) {
+        double* node = &rows_(3 * Eigen::Index(places[k]), j);
+        for (int c = 0; c < 3; ++c) node[c] = is_known[k] != 0 ? node[c] + values[c] : values[c];
+      }
     }
   }
-}
+  MatrixXd taken()
+  {
+    for (Eigen::Index k = 0; k < std::ssize(is_known_); ++k)
+      if (is_known_[static_cast<std::size_t>(k)] == 0) rows_.middleRows<3>(3 * k).setZero();
+    return std::move(rows_);
+  }
+
+ private:
+  MatrixXd rows_;
+  std::vector<char> is_known_;
+};
 
 int numbers_of(std::span<const int> places, Eigen::Index n_columns)
 {
@@ -80,7 +101,7 @@ int numbers_of(std::span<const int> places, Eigen::Index n_columns)
 }
 
 /// Adds what the other ranks send to the first.
-void receive(MatrixXd& all)
+void receive(AllRows& all)
 {
   std::vector<double> values;
   for (int from = 1; from < n_ranks(); ++from) {
@@ -89,10 +110,10 @@ void receive(MatrixXd& all)
     std::vector<int> places(static_cast<std::size_t>(n));
     MPI_Recv(places.data(), n, MPI_INT, from, 0, PETSC_COMM_WORLD, MPI_STATUS_IGNORE);
     by_pieces(places, [&](std::span<const int> some) {
-      const int n_numbers = numbers_of(some, all.cols());
+      const int n_numbers = numbers_of(some, all.n_columns());
       values.resize(static_cast<std::size_t>(n_numbers));
       MPI_Recv(values.data(), n_numbers, MPI_DOUBLE, from, 0, PETSC_COMM_WORLD, MPI_STATUS_IGNORE);
-      add_rows(some, values.data(), all);
+      all.add(some, values.data());
     });
   }
 }
@@ -121,7 +142,7 @@ mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap
   }
   if (n == 0) return picture;
   const bool is_first = rank() == 0;
-  if (is_first) picture.transformation.setZero(3 * n, own.n_columns);
+  AllRows all(is_first ? n : 0, own.n_columns);
   const std::vector<int> places = own_places(chosen.nodes, dofs, own);
   std::vector<MatrixXd> pieces;
   by_pieces(places, [&](std::span<const int> some) {
@@ -129,14 +150,16 @@ mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap
     for (const int place : some) nodes.push_back(chosen.nodes[static_cast<std::size_t>(place)]);
     MatrixXd rows = displacement_rows(nodes, dofs, own.rows_of);
     if (is_first)
-      add_rows(some, rows.data(), picture.transformation);
+      all.add(some, rows.data());
     else
       pieces.push_back(std::move(rows));
   });
-  if (is_first)
-    receive(picture.transformation);
-  else
+  if (!is_first) {
     send(places, pieces);
+    return picture;
+  }
+  receive(all);
+  picture.transformation = all.taken();
   return picture;
 }
 
