@@ -1,35 +1,27 @@
 #!/usr/bin/python3
-"""What a reduction would gain from more ranks than this machine has cores: counted work, and a model of a cluster.
+"""What a reduction would gain from more ranks than this machine has cores: work counted rank by rank, and a model of a cluster.
 
 usage: ranks.py [--quick] [--machine FILE] OUTPUT      (--quick: the small disc on up to four ranks)
 
-All ranks share the cores of this machine, so their seconds mean little; what they have to do is counted: the operations and the
-entries of the factor on the fullest rank, the messages and bytes that PETSc's log sees, the memory of a rank. A model turns
-the counts and the times of one rank into a time on as many cores, with the numbers of FILE (machine.json). Writes
+All ranks share the cores of this machine, so their seconds mean little. What each of them does by itself is counted instead: the CPU
+time between its calls of MPI, phase by phase, and the bytes and messages of these calls, by the library work_outside_mpi. The phases
+follow one another on the rank that has most to do, with the numbers of FILE (machine.json) for the network. Writes
 OUTPUT/reduction_ranks.json and .md.
 """
 import argparse
 import json
 import math
 import pathlib
-import re
 import tempfile
 
 import run
 
 HERE = pathlib.Path(__file__).resolve().parent
-SIZES = {"73k": 0.009, "300k": 0.0041}
-RANKS = {"73k": (1, 2, 4, 8, 16, 32, 64), "300k": (1, 2, 4, 8, 16, 32)}
-SERIAL_PHASES = ("mesh", "pictures", "write")
-SERIAL_EVENTS = ("CMSAnalysis",)
-
-
-def logged(printed):
-    """Messages, bytes of them and reductions of the rank that has most, from -log_view."""
-    value = lambda name: float((re.search(rf"^{name}:?\s+([\d.e+-]+)", printed, re.M) or [0, 0])[1])
-    messages = value("MPI Msg Count") or value("MPI Messages")
-    length = value(r"MPI Msg Len \(bytes\)") or value("MPI Message Lengths")
-    return {"messages": messages, "bytes": length, "reductions": value("MPI Reductions")}
+COUNTER = run.ROOT / "build/release/benchmarks/reduction/libwork_outside_mpi.so"
+SIZES = {"73k": 0.009, "300k": 0.0041, "1M": 0.00225}
+RANKS = {"73k": (1, 2, 4, 8, 16, 32, 64), "300k": (1, 2, 4, 8, 16, 32, 64), "1M": (1, 2, 16, 32)}
+CARRIED_ON_TO = 4e6  # DOFs
+BOUND_BY_MEMORY = "CMSSolve"  # the event whose speed is that of memory
 
 
 def measure(folder, name, ranks):
@@ -37,82 +29,105 @@ def measure(folder, name, ranks):
     cache = folder / "meshes"
     if ranks == 1:  # kept for all numbers of ranks, as one would on a cluster
         run.timed([run.CHLADNI, "mesh", path, "--output", folder / name, "--mesh-cache", cache], folder)
-    summary = run.reduce(folder / f"{name}-{ranks}", path, ranks, cache=cache)
-    counted = {f"{what}{of}": summary[f"factor_{what}{of}"] for what in ("entries", "operations") for of in ("", "_of_rank")}
-    return {"disc": name, "ranks": ranks, "dofs": summary["n_dofs"], **counted,
-            "wall_s": summary["wall_s"], "cpu_s": summary["cpu_s"], "peak_MiB": summary["peak_MiB"], "frequencies_Hz": summary["frequencies_Hz"],
-            "phases_s": summary["phases"], "events_s": {key: value["wall_s"] for key, value in summary["events"].items()},
-            **logged(summary["printed"])}
+    counted = folder / f"{name}-{ranks}" / "work.json"
+    summary = run.reduce(folder / f"{name}-{ranks}", path, ranks, cache=cache,
+                         variables={"LD_PRELOAD": COUNTER, "WORK_OUTSIDE_MPI": counted})
+    return {"disc": name, "ranks": ranks, "dofs": summary["n_dofs"], "wall_s": summary["wall_s"], "peak_MiB": summary["peak_MiB"],
+            "frequencies_Hz": summary["frequencies_Hz"],
+            **{key: summary[f"factor_{key}"] for key in ("entries", "operations", "entries_of_rank", "operations_of_rank")},
+            "work": [json.loads(line) for line in counted.read_text().splitlines()]}
 
 
-def parts_of(one):
-    """Seconds of one rank by what they shrink with on many."""
-    events = one["events_s"]
-    serial = sum(one["phases_s"].get(p, 0.0) for p in SERIAL_PHASES) + sum(events.get(e, 0.0) for e in SERIAL_EVENTS)
-    parts = {"serial": serial, "ordering": events["CMSOrdering"], "factor": events["CMSFactor"], "solutions": events["CMSSolve"]}
-    return {**parts, "rows": one["wall_s"] - sum(parts.values())}
+def crowding(ranks, machine):
+    """How much slower memory is where all cores of a node that have a rank ask for it."""
+    return max(1.0, min(ranks, machine["cores_per_node"]) / machine["cores_of_full_memory_bandwidth"])
 
 
-def ordering_share(blocks, ranks):
-    """The longest way of a dissection that ranks make together over that of one rank: a separator costs as much as the graph is
-    large, and is sought by one rank while the others wait; whole subgraphs of ranks are dissected at the same time."""
-    least = 200.0  # vertices, from which on METIS dissects no further
-    levels, shared = math.log2(blocks / least), math.log2(ranks)
-    return (sum(0.5**i for i in range(math.ceil(shared))) + (levels - shared) / ranks) / levels
+def phases_of(run_, machine):
+    """Seconds of each phase, on the rank that has most to do in it."""
+    slower = crowding(run_["ranks"], machine) - 1.0
+    phases = {}
+    for rank in run_["work"]:
+        own = {}
+        for key, counted in rank.items():
+            phase, _, event = key.partition("/")
+            own[phase] = own.get(phase, 0.0) + counted["work_s"] * (1.0 + (slower if event == BOUND_BY_MEMORY else 0.0)) \
+                + 1e-6 * machine["latency_us"] * counted["messages"] + 1e-9 * counted["bytes"] / machine["bandwidth_GB_per_s"]
+        for phase, seconds in own.items():
+            phases[phase] = max(phases.get(phase, 0.0), seconds)
+    return phases
 
 
-def predicted(entry, one, machine):
-    """Seconds on as many cores, by parts."""
-    parts, ranks = parts_of(one), entry["ranks"]
-    waits = entry["messages"] + 2.0 * entry["reductions"] * max(ranks - 1, 0).bit_length()
-    network = 1e-6 * machine["latency_us"] * waits + 1e-9 * entry["bytes"] / machine["bandwidth_GB_per_s"] if ranks > 1 else 0.0
-    cores = machine["cores_of_full_memory_bandwidth"]
-    crowded = max(1.0, min(ranks, machine["cores_per_node"]) / cores) if ranks > 1 else 1.0
-    return {"serial": parts["serial"], "ordering": parts["ordering"] * ordering_share(entry["dofs"] / 6, ranks),
-            "factor": parts["factor"] * entry["operations_share"], "solutions": parts["solutions"] * entry["entries_share"] * crowded,
-            "rows": parts["rows"] / ranks, "network": network}
+def most_of(run_, what):
+    return max(sum(counted[what] for counted in rank.values()) for rank in run_["work"])
+
+
+def losses_of(run_, one):
+    """Seconds of each event of a phase beyond its share of one rank's, the largest first: work alone."""
+    keys = {key for rank in run_["work"] for key in rank}
+    most = {key: max(rank.get(key, {"work_s": 0.0})["work_s"] for rank in run_["work"]) for key in keys}
+    alone = {key: one["work"][0].get(key, {"work_s": 0.0})["work_s"] for key in keys}
+    return dict(sorted(((key, most[key] - alone[key] / run_["ranks"]) for key in keys), key=lambda item: -item[1]))
 
 
 def judged(runs, machine):
     one = {r["disc"]: r for r in runs if r["ranks"] == 1}
-    for r in runs:  # an order that ranks make together fills a little more
-        for what in ("entries", "operations"):
-            r[f"{what}_share"] = r[f"{what}_of_rank"] / one[r["disc"]][what]
-    largest_change = lambda r: max(abs(a / b - 1.0) for a, b in zip(r["frequencies_Hz"], one[r["disc"]]["frequencies_Hz"]))
     entries = []
     for r in runs:
-        parts = predicted(r, one[r["disc"]], machine)
-        whole = sum(parts.values())
-        speedup = one[r["disc"]]["wall_s"] / whole
-        losses = sorted(((parts[k] - parts_of(one[r["disc"]]).get(k, 0.0) / r["ranks"], k) for k in parts), reverse=True)
-        entries.append({**r, "predicted_s": parts, "predicted_wall_s": whole, "speedup": speedup, "efficiency": speedup / r["ranks"],
-                        "losses_s": {k: v for v, k in losses}, "change_of_frequencies": largest_change(r)})
+        alone = one[r["disc"]]
+        phases, before = phases_of(r, machine), phases_of(alone, machine)
+        speedup = sum(before.values()) / sum(phases.values())
+        change = max(abs(a / b - 1.0) for a, b in zip(r["frequencies_Hz"], alone["frequencies_Hz"]))
+        entries.append({**{k: v for k, v in r.items() if k not in ("work", "frequencies_Hz")}, "phases_s": phases,
+                        "predicted_s": sum(phases.values()), "speedup": speedup, "efficiency": speedup / r["ranks"],
+                        "entries_share": r["entries_of_rank"] / alone["entries"],
+                        "operations_share": r["operations_of_rank"] / alone["operations"],
+                        "messages": most_of(r, "messages"), "bytes": most_of(r, "bytes"),
+                        "mean_work_s": sum(c["work_s"] for rank in r["work"] for c in rank.values()) / r["ranks"],
+                        "losses_s": losses_of(r, alone), "change_of_frequencies": change})
     return entries
+
+
+def carried_on(entries, dofs):
+    """Efficiencies at a larger size: each phase grows with the DOFs as it does between the two largest discs that have a number of
+    ranks."""
+    def grown(ranks):
+        small, large = sorted((e for e in entries if e["ranks"] == ranks), key=lambda e: e["dofs"])[-2:]
+        by = dofs / large["dofs"]
+        rate = lambda phase: math.log(large["phases_s"][phase] / small["phases_s"][phase]) / math.log(large["dofs"] / small["dofs"])
+        # What does not grow is a constant; what seems to shrink is noise.
+        return sum(s * by ** max(0.0, rate(phase) if small["phases_s"].get(phase) else 1.0) for phase, s in large["phases_s"].items())
+    numbers = sorted({e["ranks"] for e in entries})
+    known = [n for n in numbers if sum(e["ranks"] == n for e in entries) >= 2]
+    return {n: grown(1) / grown(n) / n for n in known if n > 1}
 
 
 def table(entries, machine, here):
     lines = ["# Reduction on many ranks, by counts", "",
-             "366 masters and 100 fixed-interface modes. All ranks shared the cores of one machine, where they only counted: operations and "
-             "entries of the factor on the fullest rank against those of one rank alone, messages, bytes and reductions of PETSc's log, memory. Written by "
+             "366 masters and 100 fixed-interface modes. All ranks shared the cores of one machine; what each does by itself was counted: CPU "
+             "time between its calls of MPI, by phases, and messages and bytes of these calls. Written by "
              "`benchmarks/reduction/ranks.py`.", "",
-             f"{here['processor']}, {here['cores']} cores, commit {here['commit']}. Predicted seconds are those of one rank here, shared out as "
-             f"counted, on a machine with {machine['cores_per_node']} cores a node, of which {machine['cores_of_full_memory_bandwidth']} together "
-             f"take all its memory bandwidth, {machine['latency_us']} us for a message and {machine['bandwidth_GB_per_s']} GB/s "
-             "(`benchmarks/reduction/machine.json`): solutions slow down by the shared bandwidth, rows are shared out evenly, "
-             "reading the mesh, which was kept before (`--mesh-cache`), analysis, pictures and files stay on one rank, "
-             "ranks order together, each separator by one of them, "
-             "a reduction takes two messages for each doubling of the ranks. "
-             "Waiting for the slowest rank beyond these counts is left out.", "",
-             "| disc | ranks | factor: whole over the fullest rank, entries | operations | messages | MB | reductions | peak MiB of a rank | "
-             "predicted, s | speed-up | efficiency | largest losses, s | change of the frequencies |", "|---" * 13 + "|"]
+             f"{here['processor']}, {here['cores']} cores, commit {here['commit']}. The predicted time is, phase after phase, that of the rank "
+             f"with most to do, on a machine with {machine['cores_per_node']} cores a node, of which "
+             f"{machine['cores_of_full_memory_bandwidth']} together take all its memory bandwidth, {machine['latency_us']} us for a message and "
+             f"{machine['bandwidth_GB_per_s']} GB/s (`benchmarks/reduction/machine.json`). Solutions slow down by the shared bandwidth; a "
+             "collective call waits for one message per doubling of the ranks, a sum of all ranks for two. The mesh was kept before "
+             "(`--mesh-cache`). Left out: waiting within a phase, and starting the program. Counted too high: work of ranks that share a "
+             "core, whose caches the others empty.", "",
+             "| disc | ranks | factor: whole over the fullest rank, entries | operations | messages | MB | peak MiB of a rank | "
+             "mean work, s | predicted, s | speed-up | efficiency | largest losses, s of one rank | change of the frequencies |", "|---" * 13 + "|"]
     for e in entries:
         losses = ", ".join(f"{k} {v:.2f}" for k, v in list(e["losses_s"].items())[:3]) if e["ranks"] > 1 else "-"
         lines.append(f"| {e['disc']} | {e['ranks']} | {1 / e['entries_share']:.1f} | {1 / e['operations_share']:.1f} | {e['messages']:.0f} | "
-                     f"{e['bytes'] / 1e6:.1f} | {e['reductions']:.0f} | {e['peak_MiB']:.0f} | {e['predicted_wall_s']:.2f} | {e['speedup']:.1f} | "
+                     f"{e['bytes'] / 1e6:.0f} | {e['peak_MiB']:.0f} | {e['mean_work_s']:.2f} | {e['predicted_s']:.2f} | {e['speedup']:.1f} | "
                      f"{100 * e['efficiency']:.0f} % | {losses} | {e['change_of_frequencies']:.0e} |")
+    further = carried_on(entries, CARRIED_ON_TO)
+    if further and len({e["disc"] for e in entries}) > 1:
+        lines += ["", f"Carried on to {CARRIED_ON_TO / 1e6:.0f} million DOFs, each phase as it grew between the two largest discs of a row: "
+                  + ", ".join(f"{100 * share:.0f} % on {n} ranks" for n, share in further.items()) + "."]
     two = [e for e in entries if e["ranks"] == 2]
     lines += ["", "The model beside this machine, where two ranks have a core each:", "", "| disc | predicted, s | measured, s |", "|---|---|---|"]
-    lines += [f"| {e['disc']} | {e['predicted_wall_s']:.2f} | {e['wall_s']:.2f} |" for e in two]
+    lines += [f"| {e['disc']} | {e['predicted_s']:.2f} | {e['wall_s']:.2f} |" for e in two]
     return "\n".join(lines) + "\n"
 
 
@@ -128,7 +143,8 @@ def main():
         runs = [measure(pathlib.Path(folder), name, ranks) for name, counts in wanted.items() for ranks in counts]
     entries = judged(runs, machine)
     arguments.output.mkdir(parents=True, exist_ok=True)
-    result = {"machine": machine, "here": run.machine(), "runs": [{k: v for k, v in e.items() if k != "frequencies_Hz"} for e in entries]}
+    result = {"machine": machine, "here": run.machine(), "carried_on": {str(k): v for k, v in carried_on(entries, CARRIED_ON_TO).items()}
+              if len(wanted) > 1 else {}, "runs": entries}
     (arguments.output / "reduction_ranks.json").write_text(json.dumps(result, indent=1))
     text = table(entries, machine, result["here"])
     (arguments.output / "reduction_ranks.md").write_text(text)

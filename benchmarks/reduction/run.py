@@ -34,10 +34,11 @@ def scene(folder, size, order=3, modes=100):
     return path
 
 
-def reduce(folder, path, ranks=1, options=(), cache=None):
-    """One reduction, with the mesh that `cache` keeps if given; returns the summary that the program writes, and its -log_view
-    events."""
-    launcher = ["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
+def reduce(folder, path, ranks=1, options=(), cache=None, variables=None):
+    """One reduction, with the mesh that `cache` keeps and the environment variables of all ranks if given; returns the summary that
+    the program writes, and its -log_view events."""
+    set_by = ["env", *(f"{name}={value}" for name, value in (variables or {}).items())]
+    launcher = [*(["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []), *set_by]
     command = [*launcher, str(CHLADNI), "reduce", str(path), "--output", str(folder),
                "--json", str(folder / "summary.json"), *(["--mesh-cache", str(cache)] if cache else []), "--", "-log_view", *options]
     done = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, check=False)

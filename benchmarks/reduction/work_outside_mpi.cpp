@@ -81,10 +81,14 @@ int ranks_of(MPI_Comm comm)
   return size;
 }
 
+/// Without those of this rank for itself.
 double sum(const int* counts, MPI_Comm comm)
 {
+  int rank = 0;
+  PMPI_Comm_rank(comm, &rank);
   double all = 0.0;
-  for (int q = 0; counts != nullptr && q < ranks_of(comm); ++q) all += counts[q];
+  for (int q = 0; counts != nullptr && q < ranks_of(comm); ++q)
+    if (q != rank) all += counts[q];
   return all;
 }
 
