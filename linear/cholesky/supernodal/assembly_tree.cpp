@@ -81,6 +81,7 @@ class Amalgamation {
   /// -1 for a root.
   int parent(int s) const { return all_.parent[s]; }
   int size() const { return all_.size(); }
+  double n_rows_below(int s) const { return below_[s]; }
 
  private:
   static constexpr int none = -1;
@@ -201,6 +202,9 @@ AssemblyTree assembly_tree(const QuotientGraph& graph, const std::vector<int>& p
     });
     tree.first_column.push_back(static_cast<int>(tree.row.size()));
   });
+  double n_below = 0.0;
+  for (const int s : left) n_below += supernodes.n_rows_below(s);
+  tree.below_rows.reserve(std::size_t(n_below));
   std::vector<int> firsts;  // of the vertices below one of them
   for (const int s : left) {
     const int parent = supernodes.parent(s);

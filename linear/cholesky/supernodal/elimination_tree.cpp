@@ -69,6 +69,7 @@ class Structures {
         first_child_(order.size(), none)
   {
     found_.order = std::move(order);
+    found_.below.reserve(graph.edges.neighbours.size());  // about; pages are touched once
   }
 
   FundamentalSupernodes all()

@@ -1,6 +1,7 @@
 #include "linear/cholesky/supernodal/shared_fronts.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "linear/kernels/gather.hpp"
 
@@ -46,12 +47,20 @@ std::vector<SharedFronts::MovedRow> SharedFronts::received_rows(int child) const
 /// The lower triangles of rows that move: row i has i + 1 numbers.
 void SharedFronts::plan_exchange(int s)
 {
-  sent_counts_.assign(group_[s].size(), 0);
-  received_counts_.assign(group_[s].size(), 0);
+  using Counts = std::vector<std::int64_t>;
+  Counts sent(group_[s].size(), 0), received(group_[s].size(), 0);
   for (const int child : own_.children(s)) {
-    for (const MovedRow& row : sent_rows(child)) sent_counts_[row.other] += row.row + 1;
-    for (const MovedRow& row : received_rows(child)) received_counts_[row.other] += row.row + 1;
+    for (const MovedRow& row : sent_rows(child)) sent[row.other] += row.row + 1;
+    for (const MovedRow& row : received_rows(child)) received[row.other] += row.row + 1;
   }
+  const auto checked = [](const Counts& counts) {
+    std::vector<int> all;
+    for (const std::int64_t count : counts)
+      all.push_back(checked_count(count, "numbers of a front for one rank", "use more ranks"));
+    return all;
+  };
+  sent_counts_ = checked(sent);
+  received_counts_ = checked(received);
   sent_at_ = offsets(sent_counts_);
   received_at_ = offsets(received_counts_);
   sent_.of(sent_at_.back());
