@@ -111,7 +111,8 @@ def table(entries, machine, here):
              f"with most to do, on a machine with {machine['cores_per_node']} cores a node, of which "
              f"{machine['cores_of_full_memory_bandwidth']} together take all its memory bandwidth, {machine['latency_us']} us for a message and "
              f"{machine['bandwidth_GB_per_s']} GB/s (`benchmarks/reduction/machine.json`). Solutions slow down by the shared bandwidth; a "
-             "collective call waits for one message per doubling of the ranks, a sum of all ranks for two. The mesh was kept before "
+             "collective call waits for one message per doubling of the ranks, a sum of all ranks for two, an exchange for one to each rank that gets "
+             "something; bytes are those that a rank sends or receives, whichever is more. The mesh was kept before "
              "(`--mesh-cache`). Left out: waiting within a phase, and starting the program. Counted too high: work of ranks that share a "
              "core, whose caches the others empty.", "",
              "| disc | ranks | factor: whole over the fullest rank, entries | operations | messages | MB | peak MiB of a rank | "

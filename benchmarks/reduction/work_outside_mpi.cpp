@@ -1,9 +1,11 @@
 // A library to be loaded before MPI (LD_PRELOAD), which counts what each rank does by itself: the
-// CPU time between its calls of MPI, by the phases and the events in them that the program names with
-// MPI_Pcontrol (1 and 2; 0 and 3 end them), and what it sends. Waiting in MPI does not count, so that the numbers mean something where many ranks
-// share few cores. MPI_Finalize writes them to the file that WORK_OUTSIDE_MPI names.
+// CPU time between its calls of MPI, by the phases and the events in them that the program names
+// with MPI_Pcontrol (1 and 2; 0 and 3 end them), and what it sends. Waiting in MPI does not count,
+// so that the numbers mean something where many ranks share few cores. MPI_Finalize writes them to
+// the file that WORK_OUTSIDE_MPI names.
 #include <mpi.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdarg>
 #include <cstdio>
@@ -17,8 +19,8 @@ namespace {
 
 struct Counted {
   double work_s = 0.0;
-  double bytes = 0.0;     ///< that this rank sends or receives, whichever is more
-  double messages = 0.0;  ///< one after the other: a collective call has those of a binary tree
+  double sent = 0.0, received = 0.0;  ///< bytes
+  double messages = 0.0;              ///< one after the other: see `count` and `exchange`
 };
 
 std::map<std::string, Counted>& phases()
@@ -92,19 +94,58 @@ double sum(const int* counts, MPI_Comm comm)
   return all;
 }
 
-/// A call of all ranks of a communicator, there and back so many times.
+/// A call of all ranks of a communicator, along a binary tree so many times, in which this rank
+/// sends and receives as many bytes.
 void count(MPI_Comm comm, double times, double bytes)
 {
   if (now == nullptr || ranks_of(comm) == 1) return;
   now->messages += times * std::bit_width(unsigned(ranks_of(comm) - 1));
-  now->bytes += bytes;
+  now->sent += bytes;
+  now->received += bytes;
 }
 
-void count_one(double bytes)
+void count_sent(double bytes)
 {
   if (now == nullptr) return;
   now->messages += 1.0;
-  now->bytes += bytes;
+  now->sent += bytes;
+}
+
+void count_received(double bytes)
+{
+  if (now != nullptr) now->received += bytes;
+}
+
+/// A message to each rank that gets something.
+void exchange(const int* sent, MPI_Datatype type, const int* received, MPI_Datatype received_type,
+              MPI_Comm comm)
+{
+  if (now == nullptr) return;
+  int rank = 0;
+  PMPI_Comm_rank(comm, &rank);
+  for (int q = 0; q < ranks_of(comm); ++q)
+    if (q != rank && sent[q] > 0) now->messages += 1.0;
+  now->sent += sum(sent, comm) * size_of(type);
+  now->received += sum(received, comm) * size_of(received_type);
+}
+
+/// Bytes of persistent requests: sent, or received (negative).
+std::map<MPI_Request, double>& persistent()
+{
+  static std::map<MPI_Request, double> all;
+  return all;
+}
+
+void start(int n, const MPI_Request* requests)
+{
+  for (int i = 0; i < n; ++i) {
+    const auto known = persistent().find(requests[i]);
+    if (known == persistent().end()) continue;
+    if (known->second > 0.0)
+      count_sent(known->second);
+    else
+      count_received(-known->second);
+  }
 }
 
 std::string as_json()
@@ -114,8 +155,8 @@ std::string as_json()
     char line[256];
     std::snprintf(line, sizeof line,
                   "%s\"%s\": {\"work_s\": %.6f, \"bytes\": %.0f, \"messages\": %.0f}",
-                  text.size() == 1 ? "" : ", ", name.c_str(), counted.work_s, counted.bytes,
-                  counted.messages);
+                  text.size() == 1 ? "" : ", ", name.c_str(), counted.work_s,
+                  std::max(counted.sent, counted.received), counted.messages);
     text += line;
   }
   return text + "}";
@@ -183,10 +224,19 @@ int MPI_Pcontrol(const int level, ...)
   std::va_list arguments;
   va_start(arguments, level);
   switch (level) {
-    case 1: begin_phase(va_arg(arguments, const char*)); break;
-    case 2: events.emplace_back(va_arg(arguments, const char*)); turn_to(event()); break;
-    case 3: if (!events.empty()) events.pop_back(); turn_to(event()); break;
-    default: begin_phase("between");
+    case 1:
+      begin_phase(va_arg(arguments, const char*));
+      break;
+    case 2:
+      events.emplace_back(va_arg(arguments, const char*));
+      turn_to(event());
+      break;
+    case 3:
+      if (!events.empty()) events.pop_back();
+      turn_to(event());
+      break;
+    default:
+      begin_phase("between");
   }
   va_end(arguments);
   return MPI_SUCCESS;
@@ -231,25 +281,41 @@ COUNTED(Scatter,
 COUNTED(Scatterv,
         (const void* a, const int* n, const int* d, MPI_Datatype t, void* b, int m, MPI_Datatype u,
          int r, MPI_Comm c),
-        (a, n, d, t, b, m, u, r, c), count(c, 1, m* size_of(u)))
+        (a, n, d, t, b, m, u, r, c),
+        count(c, 1, n == nullptr ? m * size_of(u) : sum(n, c) * size_of(u)))
 COUNTED(Alltoall,
         (const void* a, int n, MPI_Datatype t, void* b, int m, MPI_Datatype u, MPI_Comm c),
         (a, n, t, b, m, u, c), count(c, 1, double(m) * ranks_of(c) * size_of(u)))
 COUNTED(Alltoallv,
         (const void* a, const int* n, const int* d, MPI_Datatype t, void* b, const int* m,
          const int* e, MPI_Datatype u, MPI_Comm c),
-        (a, n, d, t, b, m, e, u, c), count(c, 1, sum(n, c) * size_of(t)))
+        (a, n, d, t, b, m, e, u, c), exchange(n, t, m, u, c))
 COUNTED(Reduce_scatter_block, (const void* a, void* b, int n, MPI_Datatype t, MPI_Op o, MPI_Comm c),
         (a, b, n, t, o, c), count(c, 1, double(n) * ranks_of(c) * size_of(t)))
 COUNTED(Send, (const void* a, int n, MPI_Datatype t, int r, int g, MPI_Comm c), (a, n, t, r, g, c),
-        count_one(n* size_of(t)))
+        count_sent(n* size_of(t)))
 COUNTED(Isend, (const void* a, int n, MPI_Datatype t, int r, int g, MPI_Comm c, MPI_Request* q),
-        (a, n, t, r, g, c, q), count_one(n* size_of(t)))
+        (a, n, t, r, g, c, q), count_sent(n* size_of(t)))
 COUNTED(Recv, (void* a, int n, MPI_Datatype t, int r, int g, MPI_Comm c, MPI_Status* s),
-        (a, n, t, r, g, c, s), )
+        (a, n, t, r, g, c, s), count_received(n* size_of(t)))
 COUNTED(Irecv, (void* a, int n, MPI_Datatype t, int r, int g, MPI_Comm c, MPI_Request* q),
-        (a, n, t, r, g, c, q), )
-COUNTED(Startall, (int n, MPI_Request* q), (n, q), )
+        (a, n, t, r, g, c, q), count_received(n* size_of(t)))
+COUNTED(Startall, (int n, MPI_Request* q), (n, q), start(n, q))
+
+int MPI_Send_init(const void* a, int n, MPI_Datatype t, int r, int g, MPI_Comm c, MPI_Request* q)
+{
+  const int status = PMPI_Send_init(a, n, t, r, g, c, q);
+  persistent()[*q] = n * size_of(t);
+  return status;
+}
+
+int MPI_Recv_init(void* a, int n, MPI_Datatype t, int r, int g, MPI_Comm c, MPI_Request* q)
+{
+  const int status = PMPI_Recv_init(a, n, t, r, g, c, q);
+  persistent()[*q] = -n * size_of(t);
+  return status;
+}
+
 COUNTED(Wait, (MPI_Request * q, MPI_Status* s), (q, s), )
 COUNTED(Waitall, (int n, MPI_Request* q, MPI_Status* s), (n, q, s), )
 COUNTED(Waitany, (int n, MPI_Request* q, int* i, MPI_Status* s), (n, q, i, s), )

@@ -31,8 +31,8 @@ struct LocalColumns {
 struct FactorSize {
   double operations;  ///< floating-point operations of the factorisation
   double entries;     ///< of the triangle
-  /// Those of the rank that has most, including work that ranks repeat; 0 if the package does not
-  /// tell.
+  /// Those of the rank that has most, with stored zeros and work that ranks repeat; 0 if the
+  /// package does not tell.
   double operations_of_rank = 0.0, entries_of_rank = 0.0;
 };
 

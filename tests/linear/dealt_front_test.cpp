@@ -27,7 +27,7 @@ class DealtFrontTest : public ::testing::TestWithParam<std::pair<int, int>> {
  protected:
   int w = GetParam().first, m = GetParam().second, n = w + m;
   int place = petsc::rank(PETSC_COMM_WORLD), n_ranks = petsc::size(PETSC_COMM_WORLD);
-  DealtRows rows{w, m, {.first = 0, .last = n_ranks}};
+  DealtRows rows{w, m, {.first = 0, .last = n_ranks}, 1};
   MatrixXd triangle = MatrixXd::Zero(w, w);
   VectorXd D = VectorXd::Zero(w);
 
@@ -98,6 +98,63 @@ TEST_P(DealtFrontTest, CountsNegativePivotsAndStopsAtNone)
     MatrixXd L = A(own_rows(0, n), Eigen::seqN(0, w));
     MatrixXd rest = A(own_rows(w, n), Eigen::seqN(w, m));
     EXPECT_EQ(eliminate(L, rest), expected);
+  }
+}
+
+/// A front without rows below that is the whole matrix: X <- A^-1 X on all ranks.
+void solve_whole(const SharedColumns& L, Panels X)
+{
+  const auto n = int(X.stride) * X.n_panels;
+  solve_forward(L, X);
+  solve_backward(L, X);
+  MPI_Allreduce(MPI_IN_PLACE, X.values, n, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+}
+
+/// Stiff and nearly free: a chain of springs between each two of its points, held softly.
+TEST(DealtFrontOfAStiffBody, HasBackwardErrorsOfRoundOff)
+{
+  const int w = 250;
+  const DealtRows rows{w, 0, {.first = 0, .last = petsc::size(PETSC_COMM_WORLD)}, 0};
+  const int place = petsc::rank(PETSC_COMM_WORLD), n_own = rows.count(place, 0, w);
+  for (const double support : {1.0, 1e-6, 1e-12}) {
+    MatrixXd A = MatrixXd::Zero(w, w);
+    for (int i = 0; i < w; ++i) {
+      for (int j = 0; j < i; ++j) {
+        const double k = 1.0 / (1.0 + std::abs(i - j));
+        A(i, i) += k;
+        A(j, j) += k;
+        A(i, j) = A(j, i) = -k;
+      }
+    }
+    A(0, 0) += support;
+    MatrixXd L(n_own, w), rest(0, 0);
+    int k = 0;
+    rows.for_rows(place, 0, w, [&](int row) { L.row(k++) = A.row(row); });
+    MatrixXd triangle(w, w);
+    VectorXd D(w);
+    std::vector<double> workspace(size_of_workspace(rows, place));
+    const DealtFront front{.rows = rows,
+                           .place = place,
+                           .comm = PETSC_COMM_WORLD,
+                           .L = L.data(),
+                           .rest = rest.data(),
+                           .triangle = triangle.data(),
+                           .D = D.data(),
+                           .workspace = workspace.data()};
+    ASSERT_EQ(eliminate_dealt(front), 0);
+    divide_by_triangle(front);
+    const AlignedNumbers tiles = aligned_numbers(shared_size(rows, place));
+    store_shared(rows, place, L.data(), D.data(), tiles.get());
+    const AlignedNumbers values = aligned_numbers(std::size_t(w) * panel_width);
+    const MatrixXd B = random_matrix(panel_width, w);  // by rows of the panel
+    std::copy_n(B.data(), B.size(), values.get());
+    solve_whole({.values = tiles.get(), .rows = rows, .place = place, .first = 0, .below = {}},
+                {.values = values.get(), .stride = std::size_t(w) * panel_width, .n_panels = 1});
+    const MatrixXd X = Eigen::Map<const MatrixXd>(values.get(), panel_width, w);
+    for (int c = 0; c < panel_width; ++c) {
+      const double residual = (A * X.row(c).transpose() - B.row(c).transpose()).norm();
+      EXPECT_LT(residual, 1e-15 * w * A.norm() * X.row(c).norm()) << support;
+    }
   }
 }
 

@@ -184,7 +184,7 @@ std::vector<double> entries_of_ranks(const AssemblyTree& tree, const std::vector
   std::vector<double> entries(n_ranks, 0.0);
   for (int s = 0; s < tree.n_supernodes(); ++s)
     for (int rank = group[s].first; rank < group[s].last; ++rank)
-      entries[rank] += tree.n_entries(s) / group[s].size();
+      entries[rank] += entries_of_rank(tree, s, group[s], rank - group[s].first);
   return entries;
 }
 

@@ -14,7 +14,6 @@ namespace chladni::linear {
 
 namespace {
 
-constexpr int group_columns = 96;  // eliminated at a time
 constexpr int block_columns = 64;  // of a lower triangle that are updated as a rectangle
 
 /// Columns first .. last - 1 of a front, and where the rows of this rank stand.
@@ -32,9 +31,9 @@ struct Workspace {
 
 Workspace workspace(const DealtFront& front)
 {
-  constexpr std::size_t n_block = std::size_t(group_columns) * group_columns;
-  const std::size_t n_own = std::size_t(front.n_own()) * group_columns;
-  const std::size_t n_all = std::size_t(front.rows.n_rows()) * group_columns;
+  constexpr std::size_t n_block = std::size_t(columns_together) * columns_together;
+  const std::size_t n_own = std::size_t(front.n_own()) * columns_together;
+  const std::size_t n_all = std::size_t(front.rows.n_rows()) * columns_together;
   double* at = front.workspace;
   const auto take = [&](std::size_t n) { return (at += n) - n; };
   return {.block = take(n_block),
@@ -153,9 +152,9 @@ void update(const DealtFront& front, const ColumnGroup& columns, const Workspace
 
 std::size_t size_of_workspace(const DealtRows& rows, int place)
 {
-  const std::size_t n = 2 * std::size_t(group_columns) + rows.count(place, 0, rows.n_rows()) +
+  const std::size_t n = 2 * std::size_t(columns_together) + rows.count(place, 0, rows.n_rows()) +
                         2 * std::size_t(rows.n_rows());
-  return n * group_columns;
+  return n * columns_together;
 }
 
 int eliminate_dealt(const DealtFront& front)
@@ -164,14 +163,15 @@ int eliminate_dealt(const DealtFront& front)
   const int w = front.rows.n_columns();
   const std::size_t n_own = front.n_own(), n_pivots = front.n_own_pivots();
   int n_negative = 0;
-  for (int first = 0; first < w; first += group_columns) {
-    const int last = std::min(first + group_columns, w);
+  bool has_failed = false;
+  for (int first = 0; first < w; first += columns_together) {
+    const int last = std::min(first + columns_together, w);
     const ColumnGroup columns{.first = first,
                               .last = last,
                               .n_above = front.rows.count(front.place, 0, first),
                               .n_inside = front.rows.count(front.place, first, last)};
     const int n = eliminate_block(front, columns, work);
-    if (n < 0) return -1;
+    has_failed = has_failed || n < 0;
     n_negative += n;
     if (last == front.rows.n_rows()) break;
     eliminate_under(front, columns, work);
@@ -186,7 +186,7 @@ int eliminate_dealt(const DealtFront& front)
             .values = front.rest,
             .leading_dimension = n_own - n_pivots});
   }
-  return n_negative;
+  return has_failed ? -1 : n_negative;
 }
 
 void divide_by_triangle(const DealtFront& front)

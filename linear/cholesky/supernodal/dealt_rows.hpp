@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 
 #include "linear/cholesky/supernodal/subtrees.hpp"
 #include "linear/kernels/tile_kernels.hpp"
@@ -15,14 +14,19 @@ struct RowTile {
   int n_columns;  ///< without those that are zero in all of its rows
 };
 
+/// How many columns of a front a group of ranks eliminates at a time.
+inline constexpr int columns_together = 96;
+
 /// How a group of ranks deals out the rows of a front: tile by tile, each in turn to the next rank.
 /// The columns have the first rows, and start a tile as do those below them.
 class DealtRows {
  public:
-  DealtRows(int n_columns, int n_below, const RankGroup& group)
+  /// @param first_place  in the group, of the rank that gets the first tile
+  DealtRows(int n_columns, int n_below, const RankGroup& group, int first_place)
       : n_columns_(n_columns),
         n_below_(n_below),
         n_ranks_(group.size()),
+        first_place_(first_place % group.size()),
         n_pivot_tiles_(n_tiles(n_columns)),
         n_all_tiles_(n_pivot_tiles_ + n_tiles(n_below))
   {}
@@ -34,7 +38,7 @@ class DealtRows {
   {
     const int tile =
         row < n_columns_ ? row / tile_rows : n_pivot_tiles_ + (row - n_columns_) / tile_rows;
-    return tile % n_ranks_;
+    return (tile + first_place_) % n_ranks_;
   }
   bool is_pivot(const RowTile& tile) const { return tile.first < n_columns_; }
 
@@ -42,7 +46,8 @@ class DealtRows {
   template <typename Visit>
   void for_tiles(int place, const Visit& visit) const
   {
-    for (int k = place; k < n_all_tiles_; k += n_ranks_) visit(tile(k));
+    const int first = (place - first_place_ + n_ranks_) % n_ranks_;
+    for (int k = first; k < n_all_tiles_; k += n_ranks_) visit(tile(k));
   }
   /// Calls visit(row) for the rows first .. last - 1 of the rank at a place, ascending.
   template <typename Visit>
@@ -73,7 +78,7 @@ class DealtRows {
     return {.first = first, .n_rows = n, .n_columns = is_pivot ? first + n : n_columns_};
   }
 
-  int n_columns_, n_below_, n_ranks_, n_pivot_tiles_, n_all_tiles_;
+  int n_columns_, n_below_, n_ranks_, first_place_, n_pivot_tiles_, n_all_tiles_;
 };
 
 }  // namespace chladni::linear

@@ -110,9 +110,7 @@ class Structures {
   void wait(int s)
   {
     int& first = first_child_[found_.below_of(s).front()];
-    if (first == s) return;
-    sibling_[s] = first;
-    first = s;
+    sibling_[s] = std::exchange(first, s);
   }
 
   /// A supernode that begins with column j. Below it are its neighbours, and what its children hand

@@ -59,6 +59,11 @@ double* own_rows(const SharedColumns& L, Panels X, int panel)
 
 }  // namespace
 
+DealtRows dealt_rows(const AssemblyTree& tree, int s, const RankGroup& group)
+{
+  return {tree.n_columns(s), static_cast<int>(tree.below(s).size()), group, s};
+}
+
 std::size_t shared_size(const DealtRows& rows, int place)
 {
   std::size_t size = 0;

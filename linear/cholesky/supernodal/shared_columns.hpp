@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "linear/cholesky/supernodal/dealt_rows.hpp"
 #include "linear/cholesky/supernodal/tiled_columns.hpp"
 
@@ -16,6 +18,9 @@ struct SharedColumns {
   int first;                   ///< row of its first column in the panels
   std::span<const int> below;  ///< rows of the panels below it
 };
+
+/// How a group deals out the front of s. Supernodes begin with different ranks.
+DealtRows dealt_rows(const AssemblyTree& tree, int s, const RankGroup& group);
 
 /// The number of values of the rank at a place.
 std::size_t shared_size(const DealtRows& rows, int place);

@@ -7,11 +7,6 @@
 
 namespace chladni::linear {
 
-DealtRows SharedFronts::rows_of(int s) const
-{
-  return {tree_.n_columns(s), static_cast<int>(tree_.below(s).size()), group_[s]};
-}
-
 /// The rank that has a row of what s left over.
 int SharedFronts::owner_below(int s, const DealtRows& rows, int below) const
 {
@@ -22,7 +17,7 @@ std::vector<SharedFronts::MovedRow> SharedFronts::sent_rows(int child) const
 {
   std::vector<MovedRow> moved;
   const std::span<const int> below = tree_.below(child);
-  const DealtRows rows = rows_of(child);
+  const DealtRows rows = dealt_rows(tree_, child, group_[child]);
   for (int i = 0, own = 0; i < std::ssize(below); ++i) {
     if (owner_below(child, rows, i) != rank_) continue;
     moved.push_back({.row = i, .own = own++, .other = front_.rows.place(places_.place(below[i]))});
@@ -34,7 +29,7 @@ std::vector<SharedFronts::MovedRow> SharedFronts::received_rows(int child) const
 {
   std::vector<MovedRow> moved;
   const std::span<const int> below = tree_.below(child);
-  const DealtRows rows = rows_of(child);
+  const DealtRows rows = dealt_rows(tree_, child, group_[child]);
   const int first = rank_ - front_.place;
   for (int i = 0; i < std::ssize(below); ++i) {
     const int own = own_row_[places_.place(below[i])];
@@ -69,7 +64,7 @@ void SharedFronts::plan_exchange(int s)
 
 void SharedFronts::prepare(int s, const MatrixRows& A)
 {
-  front_.rows = rows_of(s);
+  front_.rows = dealt_rows(tree_, s, group_[s]);
   front_.place = rank_ - group_[s].first;
   places_.enter(s);
   const std::size_t w = tree_.n_columns(s), m = tree_.below(s).size();
@@ -124,16 +119,17 @@ void SharedFronts::unpack(int s)
   const std::size_t n_own = front_.n_own(), n_pivots = front_.n_own_pivots();
   for (const int child : own_.children(s)) {
     const std::vector<MovedRow> rows = received_rows(child);
+    if (rows.empty()) continue;
     const std::span<const int> below = tree_.below(child);
     std::size_t first = 0;
     for (int j = 0; j < std::ssize(below); ++j) {
       while (first < rows.size() && rows[first].row < j) ++first;
       const int column = places_.place(below[j]);
-      double* to = column < w
-                       ? front_.L + std::size_t(column) * n_own
-                       : front_.rest + std::size_t(column - w) * (n_own - n_pivots) - n_pivots;
+      double* to = column < w ? front_.L + std::size_t(column) * n_own
+                              : front_.rest + std::size_t(column - w) * (n_own - n_pivots);
+      const int before = column < w ? 0 : static_cast<int>(n_pivots);
       for (std::size_t k = first; k < rows.size(); ++k)
-        to[rows[k].own] += received[next[rows[k].other]++];
+        to[rows[k].own - before] += received[next[rows[k].other]++];
     }
   }
 }

@@ -26,14 +26,13 @@ class SharedFronts {
   /// @throws chladni::Error when the matrix has entries outside the structure of the tree.
   void prepare(int s, const MatrixRows& A);
   /// Eliminates s, which was prepared on all ranks of its group.
-  /// @return the number of negative pivots; -1 on all ranks at a pivot that is zero or NaN
+  /// @return the number of negative pivots; -1 at a pivot that is zero or NaN
   /// @note   Collective over the group, whose communicator is given.
   int eliminate(int s, MPI_Comm comm);
   /// What was eliminated last.
   const DealtFront& front() const { return front_; }
 
  private:
-  DealtRows rows_of(int s) const;
   int owner_below(int s, const DealtRows& rows, int below) const;
   /// A row of what a child left over, its number among those that this rank has (or among the own
   /// rows of the front), and the place of the rank that gets (or has) it.
@@ -52,7 +51,7 @@ class SharedFronts {
   FrontPlaces places_;
   int rank_;
   std::vector<std::vector<double>> left_over_;  ///< [n_supernodes] own rows, lower triangle
-  DealtFront front_{.rows = {0, 0, {0, 1}},
+  DealtFront front_{.rows = {0, 0, {0, 1}, 0},
                     .place = 0,
                     .comm = MPI_COMM_NULL,
                     .L = nullptr,

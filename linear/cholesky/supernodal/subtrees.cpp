@@ -1,10 +1,12 @@
 #include "linear/cholesky/supernodal/subtrees.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <limits>
 #include <numeric>
 #include <utility>
+
+#include "linear/cholesky/supernodal/shared_columns.hpp"
 
 namespace chladni::linear {
 
@@ -17,7 +19,7 @@ double work(const AssemblyTree& tree, int s, int n_ranks = 1)
   constexpr double solved_columns = 500.0;
   constexpr double operations_while_waiting = 2e6;  // in all blocks, for each doubling of the ranks
   return operations_of_rank(tree, s, n_ranks) + 4.0 * solved_columns * tree.n_entries(s) / n_ranks +
-         operations_while_waiting * std::log2(n_ranks);
+         operations_while_waiting * std::bit_width(unsigned(n_ranks - 1));
 }
 
 /// What hangs together in an assembly tree, and the work in each subtree.
@@ -139,7 +141,14 @@ double operations_of_rank(const AssemblyTree& tree, int s, int n_ranks)
   if (n_ranks == 1) return tree.n_operations(s);
   const double w = tree.n_columns(s);
   const auto m = double(tree.below(s).size());
-  return (tree.n_operations(s) + w * w * w / 3.0 + w * w * m) / n_ranks;
+  const double block = std::min(w, double(columns_together));
+  return (tree.n_operations(s) + w * w * w / 3.0 + w * w * m) / n_ranks + w * block * block / 3.0;
+}
+
+double entries_of_rank(const AssemblyTree& tree, int s, const RankGroup& group, int place)
+{
+  if (group.size() == 1) return tree.n_entries(s);
+  return double(shared_size(dealt_rows(tree, s, group), place));
 }
 
 std::vector<RankGroup> groups_of(int rank, int n_ranks)

@@ -19,9 +19,12 @@ struct RankGroup {
 /// them with this rank, and so on.
 std::vector<RankGroup> groups_of(int rank, int n_ranks);
 
-/// Operations of a rank that eliminates s with so many others: its share, and with others the
-/// inversion of the triangle.
+/// Operations of a rank of a group that eliminates s: its share, and with others the inversion of
+/// the triangle and the blocks on its diagonal.
 double operations_of_rank(const AssemblyTree& tree, int s, int n_ranks);
+
+/// Numbers of the factor in the columns of s that the rank at a place of a group has.
+double entries_of_rank(const AssemblyTree& tree, int s, const RankGroup& group, int place);
 
 /// Distributes the supernodes among ranks. The separator that divides a tree into two subtrees, one
 /// for each half of the ranks, is eliminated by all of them together, and so on down to whole

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "common/all_ranks.hpp"
@@ -51,26 +52,28 @@ int SupernodalFactor::eliminate_own(Fronts& fronts, const Visit& visit) const
 int SupernodalFactor::eliminate_shared(Fronts& fronts, const MatrixRows& A,
                                        const Visit& visit) const
 {
-  SharedFronts shared(tree_, group_, fronts, rank_);
+  std::optional<SharedFronts> shared;
+  on_all_ranks(comm_, [&] { return &shared.emplace(tree_, group_, fronts, rank_); });
   int n_negative = 0, has_failed = 0;
   std::exception_ptr complaint;
   for (std::size_t level = 0; level < groups_.size(); ++level) {
     for (const int s : whole_.supernodes.shared[level]) {
       try {
-        if (has_failed == 0) shared.prepare(s, A);
+        if (has_failed == 0) shared->prepare(s, A);
       } catch (...) {
         complaint = std::current_exception();
         has_failed = 1;
       }
       MPI_Allreduce(MPI_IN_PLACE, &has_failed, 1, MPI_INT, MPI_MAX, group_comms_[level]);
       if (has_failed != 0) continue;
-      const int n = shared.eliminate(s, group_comms_[level]);
-      if (n < 0) {
-        has_failed = 1;
-        continue;
+      const int n = shared->eliminate(s, group_comms_[level]);
+      if (n > 0 && is_counted_here(s)) n_negative += n;
+      try {
+        if (n >= 0) visit.shared(shared->front(), s);
+      } catch (...) {
+        complaint = std::current_exception();
       }
-      if (is_counted_here(s)) n_negative += n;
-      visit.shared(shared.front(), s);
+      if (n < 0 || complaint) has_failed = 1;
     }
   }
   return on_all_ranks(comm_, [&] {

@@ -55,11 +55,6 @@ int SupernodalFactor::level_of(int s) const
   return static_cast<int>(std::ranges::find(groups_, group_[s]) - groups_.begin());
 }
 
-DealtRows SupernodalFactor::dealt_rows(int s) const
-{
-  return {tree_.n_columns(s), static_cast<int>(tree_.below(s).size()), group_[s]};
-}
-
 void SupernodalFactor::analyze(Mat A)
 {
   PetscInt n = 0;
@@ -129,7 +124,7 @@ FactorSize SupernodalFactor::size() const
     size.entries += tree_.n_entries(s);
     for (int rank = group_[s].first; rank < group_[s].last; ++rank) {
       operations[rank] += operations_of_rank(tree_, s, group_[s].size());
-      entries[rank] += tree_.n_entries(s) / group_[s].size();
+      entries[rank] += entries_of_rank(tree_, s, group_[s], rank - group_[s].first);
     }
   }
   size.operations_of_rank = std::ranges::max(operations);
@@ -137,29 +132,48 @@ FactorSize SupernodalFactor::size() const
   return size;
 }
 
-CholeskyFactor::Memory SupernodalFactor::forecast() const
+/// Numbers at the peak of the elimination besides the factor: columns of fronts, and update
+/// matrices that wait for their parents.
+double SupernodalFactor::peak_of_fronts() const
 {
-  double front = 0.0, shared_front = 0.0, left_over = 0.0;
+  double front = 0.0;  // L and L D; the largest one's memory is kept
   for (const int s : whole_.supernodes.own) {
     const double w = tree_.n_columns(s);
-    front = std::max(front, 2.0 * w * (w + double(tree_.below(s).size())));  // L and L D
+    front = std::max(front, 2.0 * w * (w + double(tree_.below(s).size())));
+  }
+  std::vector<double> of_children(tree_.n_supernodes(), 0.0);
+  double waiting = 0.0, peak = peak_of_left_overs(tree_, whole_.supernodes.own);
+  const auto wait = [&](int s) {
+    const auto m = double(tree_.below(s).size());
+    const double left_over = m * m / group_[s].size();
+    waiting += left_over;
+    if (tree_.parent[s] != -1) of_children[tree_.parent[s]] += left_over;
+  };
+  for (const int s : whole_.supernodes.own) {
+    wait(s);
+    waiting -= of_children[s];
   }
   for (const std::vector<int>& supernodes : whole_.supernodes.shared) {
     for (const int s : supernodes) {
-      const double w = tree_.n_columns(s), n = double(group_[s].size());
+      const double w = tree_.n_columns(s), n = group_[s].size();
       const auto m = double(tree_.below(s).size());
       const int place = rank_ - group_[s].first;
-      shared_front = std::max(
-          shared_front, w * (w + m) / n + w * w + double(size_of_workspace(dealt_rows(s), place)));
-      left_over = std::max(left_over, 2.0 * m * m / n);  // and what is sent
+      const double moved = of_children[s];  // half of it sent, about as much received
+      wait(s);
+      peak = std::max(peak, waiting + moved + w * (w + m) / n + w * w +
+                                double(size_of_workspace(dealt_rows(s), place)));
+      waiting -= of_children[s];
     }
   }
+  return front + peak;
+}
+
+CholeskyFactor::Memory SupernodalFactor::forecast() const
+{
   constexpr double numbers_in_MiB = bytes_in_MiB / sizeof(double);
   const auto kept = double(tile_starts_.back());
-  const double own = front + peak_of_left_overs(tree_, whole_.supernodes.own);
-  const double work = std::max(own, front + shared_front + 2.0 * left_over);
   const double gathered = n_gathered_ * (1.0 + 0.5);  // with its index, and as sent
-  return {.factorization_MiB = (kept + work + gathered) / numbers_in_MiB,
+  return {.factorization_MiB = (kept + peak_of_fronts() + gathered) / numbers_in_MiB,
           .factor_MiB = (kept + double(n_slots_) * panel_width) / numbers_in_MiB,
           .entries_MiB = kept / numbers_in_MiB};
 }

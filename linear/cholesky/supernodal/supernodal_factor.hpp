@@ -86,6 +86,7 @@ class SupernodalFactor : public CholeskyFactor {
  private:
   static constexpr PetscInt most_columns = 32;
 
+  double peak_of_fronts() const;
   void number_trees();
   void number_slots();
   int supernode_at(int position) const;
@@ -129,7 +130,7 @@ class SupernodalFactor : public CholeskyFactor {
   template <typename Sweep>
   void in_panels(const SlotExchange& exchange, LocalColumns X, const Sweep& sweep);
   TiledColumns tiles(int s) const;
-  DealtRows dealt_rows(int s) const;
+  DealtRows dealt_rows(int s) const { return linear::dealt_rows(tree_, s, group_[s]); }
   SharedColumns shared_columns(int s) const;
   std::span<const int> below_slots(int s) const;
   Panels panels(std::size_t n_columns);
