@@ -138,7 +138,9 @@ def end_to_end(found):
 
 def ranks(found):
     last = max((r for r in found["runs"] if r["ranks"] <= 16), key=lambda r: (r["dofs"], r["ranks"]))
-    return [f"{last['dofs']:,} DOFs on {last['ranks']} ranks: {last['speedup']:.1f} times faster than on one, by a model of the counts"]
+    further = [f"carried on to four million DOFs: {100 * found['carried_on'][n]:.0f} % efficiency on {n}" for n in ("16", "64")
+               if n in found.get("carried_on", {})]
+    return [f"{last['dofs']:,} DOFs on {last['ranks']} ranks: {last['speedup']:.1f} times faster than on one, by a model of the counts", *further]
 
 
 def methods(found):

@@ -134,10 +134,10 @@ def memory_of_one_rank(plugin):
         except subprocess.TimeoutExpired:
             return "hangs"
 
-    text = solved(100_000, 1)  # too little for a block, of which the other rank does not know
+    text = solved(500_000, 1)  # too little for a block, of which the other rank does not know
     yield expect("memory that one rank lacks ends both",
                  "rank 1 has not enough memory" in text and "came to its end" not in text)  # fmt: skip
-    text = solved(1_000_000, 0)  # too little for the eigenvectors, about which all ranks are asked
+    text = solved(10_000_000, 0)  # too little for the eigenvectors, about which all ranks are asked
     yield expect("or is an error of both",
                  text.count("no memory for") >= 2 and text.count("came to its end") == 2)  # fmt: skip
 

@@ -12,7 +12,7 @@ slepc4py.init(sys.argv)
 from petsc4py import PETSc  # noqa: E402  after init, which reads the options
 from slepc4py import SLEPc  # noqa: E402
 
-N = 20_000  # rows: what is larger than the heap has left over is asked of the system
+N = 200_000  # rows: what is larger than the heap has left over is asked of the system
 BLOCK = 8  # vectors solved at a time
 
 
