@@ -89,8 +89,8 @@ def judged(runs, machine):
 
 
 def carried_on(entries, dofs):
-    """Efficiencies at a larger size: each phase grows with the DOFs as it does between the two largest discs that have a number of
-    ranks."""
+    """Efficiencies at a larger size, {ranks: (efficiency, largest disc)}: each phase grows with the DOFs as it does between the two
+    largest discs that have a number of ranks."""
     def grown(ranks):
         small, large = sorted((e for e in entries if e["ranks"] == ranks), key=lambda e: e["dofs"])[-2:]
         by = dofs / large["dofs"]
@@ -99,7 +99,8 @@ def carried_on(entries, dofs):
         return sum(s * by ** max(0.0, rate(phase) if small["phases_s"].get(phase) else 1.0) for phase, s in large["phases_s"].items())
     numbers = sorted({e["ranks"] for e in entries})
     known = [n for n in numbers if sum(e["ranks"] == n for e in entries) >= 2]
-    return {n: grown(1) / grown(n) / n for n in known if n > 1}
+    largest = {n: max((e for e in entries if e["ranks"] == n), key=lambda e: e["dofs"])["disc"] for n in known}
+    return {n: (grown(1) / grown(n) / n, largest[n]) for n in known if n > 1}
 
 
 def table(entries, machine, here):
@@ -124,8 +125,13 @@ def table(entries, machine, here):
                      f"{100 * e['efficiency']:.0f} % | {losses} | {e['change_of_frequencies']:.0e} |")
     further = carried_on(entries, CARRIED_ON_TO)
     if further and len({e["disc"] for e in entries}) > 1:
-        lines += ["", f"Carried on to {CARRIED_ON_TO / 1e6:.0f} million DOFs, each phase as it grew between the two largest discs of a row: "
-                  + ", ".join(f"{100 * share:.0f} % on {n} ranks" for n, share in further.items()) + "."]
+        said = []
+        for disc in reversed(SIZES):
+            shares = [f"{100 * share:.0f} % on {n}" for n, (share, largest) in further.items() if largest == disc]
+            if shares:
+                said.append(f"from the disc of {disc}, {', '.join(shares)} ranks")
+        lines += ["", f"Efficiency carried on to {CARRIED_ON_TO / 1e6:.0f} million DOFs, each phase as it grew between the two largest discs of "
+                  f"a number of ranks: {'; '.join(said)}. The further it is carried, the less it says."]
     two = [e for e in entries if e["ranks"] == 2]
     lines += ["", "The model beside this machine, where two ranks have a core each:", "", "| disc | predicted, s | measured, s |", "|---|---|---|"]
     lines += [f"| {e['disc']} | {e['predicted_s']:.2f} | {e['wall_s']:.2f} |" for e in two]
@@ -144,7 +150,7 @@ def main():
         runs = [measure(pathlib.Path(folder), name, ranks) for name, counts in wanted.items() for ranks in counts]
     entries = judged(runs, machine)
     arguments.output.mkdir(parents=True, exist_ok=True)
-    result = {"machine": machine, "here": run.machine(), "carried_on": {str(k): v for k, v in carried_on(entries, CARRIED_ON_TO).items()}
+    result = {"machine": machine, "here": run.machine(), "carried_on": {str(n): share for n, (share, _) in carried_on(entries, CARRIED_ON_TO).items()}
               if len(wanted) > 1 else {}, "runs": entries}
     (arguments.output / "reduction_ranks.json").write_text(json.dumps(result, indent=1))
     text = table(entries, machine, result["here"])
