@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "linear/cholesky/supernodal/shared_columns.hpp"
 #include "linear/kernels/gather.hpp"
 
 namespace chladni::linear {
