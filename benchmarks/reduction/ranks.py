@@ -35,7 +35,7 @@ def measure(folder, name, ranks):
     return {"disc": name, "ranks": ranks, "dofs": summary["n_dofs"], "wall_s": summary["wall_s"], "peak_MiB": summary["peak_MiB"],
             "frequencies_Hz": summary["frequencies_Hz"],
             **{key: summary[f"factor_{key}"] for key in ("entries", "operations", "entries_of_rank", "operations_of_rank")},
-            "work": [json.loads(line) for line in counted.read_text().splitlines()]}
+            "work": [json.loads(counted.with_suffix(f".json.{rank}").read_text()) for rank in range(ranks)]}
 
 
 def crowding(ranks, machine):

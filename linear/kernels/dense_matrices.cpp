@@ -41,12 +41,7 @@ void sum_over_ranks(std::span<double> values, MPI_Comm comm)
 
 void broadcast_numbers(std::span<double> values, MPI_Comm comm)
 {
-  broadcast_numbers(values, 0, comm);
-}
-
-void broadcast_numbers(std::span<double> values, int from, MPI_Comm comm)
-{
-  for_pieces(values, [&](double* piece, int n) { MPI_Bcast(piece, n, MPI_DOUBLE, from, comm); });
+  for_pieces(values, [&](double* piece, int n) { MPI_Bcast(piece, n, MPI_DOUBLE, 0, comm); });
 }
 
 double value_of_first_rank(double value, MPI_Comm comm)

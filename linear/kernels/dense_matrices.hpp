@@ -18,10 +18,9 @@ inline std::span<double> values_of(Eigen::MatrixXd& A)
 /// @note   Collective.
 void sum_over_ranks(std::span<double> values, MPI_Comm comm);
 
-/// Replaces values by those of rank 0, or of the rank `from`. Their number is not limited by MPI.
+/// Replaces values by those of rank 0. Their number is not limited by MPI.
 /// @note   Collective.
 void broadcast_numbers(std::span<double> values, MPI_Comm comm);
-void broadcast_numbers(std::span<double> values, int from, MPI_Comm comm);
 
 /// The value of the first rank. Use it for decisions: ranks on different processors may differ in
 /// the last bit.

@@ -1,26 +1,19 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <random>
 #include <vector>
 
 #include "common/petsc.hpp"
 #include "linear/cholesky/supernodal/dealt_elimination.hpp"
 #include "linear/cholesky/supernodal/shared_columns.hpp"
 #include "linear/kernels/aligned_numbers.hpp"
+#include "tests/linear/random_matrix.hpp"
 
 namespace chladni::linear {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-MatrixXd random_matrix(int n_rows, int n_columns)
-{
-  std::mt19937 generator(n_rows + 1000 * n_columns);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  return MatrixXd::NullaryExpr(n_rows, n_columns, [&] { return uniform(generator); });
-}
 
 /// Sizes: columns that are eliminated, rows below.
 class DealtFrontTest : public ::testing::TestWithParam<std::pair<int, int>> {
@@ -36,6 +29,11 @@ class DealtFrontTest : public ::testing::TestWithParam<std::pair<int, int>> {
     std::vector<int> own;
     rows.for_rows(place, first, last, [&](int row) { own.push_back(row); });
     return own;
+  }
+  MatrixXd definite_matrix() const
+  {
+    const MatrixXd R = random_matrix(n, n);
+    return R * R.transpose() + n * MatrixXd::Identity(n, n);
   }
   /// Eliminates the first columns; L and rest are what this rank has of them.
   int eliminate(MatrixXd& L, MatrixXd& rest)
@@ -64,9 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, DealtFrontTest,
 
 TEST_P(DealtFrontTest, IsEliminatedAsTheDenseMatrixIs)
 {
-  const MatrixXd R = random_matrix(n, n);
-  const MatrixXd A = R * R.transpose() + n * MatrixXd::Identity(n, n);
-  const Eigen::LDLT<MatrixXd> whole(A.topLeftCorner(w, w));
+  const MatrixXd A = definite_matrix();
   const std::vector<int> own = own_rows(0, n), own_below = own_rows(w, n);
   MatrixXd L = A(own, Eigen::seqN(0, w));
   MatrixXd rest = A(own_below, Eigen::seqN(w, m));
@@ -160,8 +156,7 @@ TEST(DealtFrontOfAStiffBody, HasBackwardErrorsOfRoundOff)
 
 TEST_P(DealtFrontTest, SolvesWithItsRows)
 {
-  const MatrixXd R = random_matrix(n, n);
-  const MatrixXd A = R * R.transpose() + n * MatrixXd::Identity(n, n);
+  const MatrixXd A = definite_matrix();
   MatrixXd L = A(own_rows(0, n), Eigen::seqN(0, w));
   MatrixXd rest = A(own_rows(w, n), Eigen::seqN(w, m));
   std::vector<double> workspace(size_of_workspace(rows, place));

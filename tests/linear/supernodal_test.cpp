@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <numeric>
-#include <random>
 
 #include "common/checked_count.hpp"
 #include "linear/cholesky/supernodal/assembly_tree.hpp"
@@ -14,6 +13,7 @@
 #include "linear/kernels/gather.hpp"
 #include "linear/kernels/tall_products.hpp"
 #include "linear/kernels/tile_kernels.hpp"
+#include "tests/linear/random_matrix.hpp"
 
 namespace chladni::linear {
 namespace {
@@ -262,13 +262,6 @@ TEST(ShareSubtrees, GivesEachRankItsShareOfEachOfTwoTrees)
     for (const std::vector<double>& of_tree : entries)
       EXPECT_GT(std::ranges::min(of_tree), 0.5 * std::ranges::max(of_tree)) << n_ranks << " ranks";
   }
-}
-
-MatrixXd random_matrix(int n_rows, int n_columns)
-{
-  std::mt19937 generator(n_rows + 1000 * n_columns);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  return MatrixXd::NullaryExpr(n_rows, n_columns, [&] { return uniform(generator); });
 }
 
 /// Sizes: columns that are eliminated, rows below.
