@@ -8,6 +8,7 @@
 
 #include "common/eigen_every.hpp"
 #include "linear/cholesky/inverse_form.hpp"
+#include "linear/kernels/diagonal.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "linear/progress.hpp"
@@ -46,14 +47,6 @@ std::vector<double> quadratic_forms(const Blocks& A, Mat A_u_s, Mat u_s, const M
   return forms;
 }
 
-petsc::Vector diagonal_of(Mat A)
-{
-  petsc::Vector diagonal;
-  petsc::check(MatCreateVecs(A, diagonal.put(), nullptr));
-  petsc::check(MatGetDiagonal(A, diagonal));
-  return diagonal;
-}
-
 /// Adds to sums_k the sum of d_j X(j, k)^2 over the local rows j.
 template <typename Value>
 void add_diagonal_form(Vec d, const Value& X, std::vector<double>& sums)
@@ -75,7 +68,7 @@ void add_diagonal_form(Vec d, const Value& X, std::vector<double>& sums)
 class EstimatedForm {
  public:
   explicit EstimatedForm(const Blocks& A)
-      : A_(A), diagonal_s_(diagonal_of(A.ss)), diagonal_m_(diagonal_of(A.mm))
+      : A_(A), diagonal_s_(linear::diagonal(A.ss)), diagonal_m_(linear::diagonal(A.mm))
   {}
 
   const Blocks& blocks() const { return A_; }

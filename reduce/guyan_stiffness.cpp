@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "linear/dense/decoupled_coordinates.hpp"
+#include "linear/kernels/diagonal.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/symmetric_eigen.hpp"
 
@@ -77,9 +78,7 @@ MatrixXd energies_of_rows(const linear::SymmetricEigen& eigen, const std::vector
   const petsc::Matrix U = linear::uninitialized_dense(Psi, k);
   petsc::check(MatZeroEntries(U));
   linear::add_product(1.0, Psi, Z, U);
-  petsc::Vector d;
-  petsc::check(MatCreateVecs(K_ss, nullptr, d.put()));
-  petsc::check(MatGetDiagonal(K_ss, d));
+  const petsc::Vector d = linear::diagonal(K_ss);
   petsc::check(VecSqrtAbs(d));
   petsc::check(MatDiagonalScale(U, d, nullptr));
   MatrixXd N = linear::inner_product(U, U);

@@ -9,6 +9,7 @@
 #include "common/eigen_every.hpp"
 #include "common/index_sets.hpp"
 #include "linear/kernels/decoupled_rows.hpp"
+#include "linear/kernels/diagonal.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "linear/kernels/symmetric_eigen.hpp"
@@ -44,9 +45,7 @@ MatrixXd inverse_root(MatrixXd A, MPI_Comm comm)
 /// X^T X after its rows are scaled by the power p of the diagonal of K_ss.
 MatrixXd scaled_gram(petsc::Matrix X, Mat K_ss, double p)
 {
-  petsc::Vector d;
-  petsc::check(MatCreateVecs(K_ss, nullptr, d.put()));
-  petsc::check(MatGetDiagonal(K_ss, d));
+  const petsc::Vector d = linear::diagonal(K_ss);
   petsc::check(VecPow(d, p));
   petsc::check(MatDiagonalScale(X, d, nullptr));
   return linear::inner_product(X, X);

@@ -6,6 +6,7 @@
 #include "common/index_sets.hpp"
 #include "linear/cholesky/factorization.hpp"
 #include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/diagonal.hpp"
 #include "linear/kernels/shifted.hpp"
 #include "linear/lanczos/block_lanczos.hpp"
 
@@ -24,11 +25,7 @@ petsc::Matrix free_block(Mat A, const FreeDofs& free)
 /// distance of the nodes.
 double least_diagonal_ratio(Mat K, Mat M)
 {
-  petsc::Vector k, m;
-  petsc::check(MatCreateVecs(K, k.put(), nullptr));
-  petsc::check(VecDuplicate(k, m.put()));
-  petsc::check(MatGetDiagonal(K, k));
-  petsc::check(MatGetDiagonal(M, m));
+  const petsc::Vector k = linear::diagonal(K), m = linear::diagonal(M);
   PetscInt n = 0;
   petsc::check(VecGetLocalSize(k, &n));
   const PetscScalar *k_values = nullptr, *m_values = nullptr;

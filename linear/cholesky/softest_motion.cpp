@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/diagonal.hpp"
 #include "linear/kernels/sparse_product.hpp"
 
 namespace chladni::linear {
@@ -11,14 +12,6 @@ namespace chladni::linear {
 namespace {
 
 constexpr PetscInt n_vectors = 4;
-
-petsc::Vector diagonal(Mat A)
-{
-  petsc::Vector d;
-  petsc::check(MatCreateVecs(A, d.put(), nullptr));
-  petsc::check(MatGetDiagonal(A, d));
-  return d;
-}
 
 /// Values without any regularity over the rows, the same for any number of ranks.
 void fill(Mat Z)

@@ -10,6 +10,8 @@
 #include "linear/cholesky/inner_solver.hpp"
 #include "linear/cholesky/supernodal_of.hpp"
 #include "linear/kernels/as_aij.hpp"
+#include "linear/kernels/diagonal.hpp"
+#include "linear/kernels/own_submatrix.hpp"
 #include "linear/kernels/shifted.hpp"
 
 namespace chladni::linear {
@@ -29,13 +31,6 @@ petsc::IndexSet free_rows(Mat K, std::vector<PetscInt> held)
   petsc::check(ISCreateGeneral(petsc::communicator(K), static_cast<PetscInt>(rows.size()),
                                rows.data(), PETSC_COPY_VALUES, set.put()));
   return set;
-}
-
-petsc::Matrix submatrix(Mat A, IS rows)
-{
-  petsc::Matrix block;
-  petsc::check(MatCreateSubMatrix(A, rows, rows, MAT_INITIAL_MATRIX, block.put()));
-  return block;
 }
 
 constexpr PetscInt root_on_one_rank = 13;  // ICNTL
@@ -73,11 +68,9 @@ struct Diagonals {
 };
 
 /// @param rows  null: all of them
-petsc::Vector diagonal(Mat A, IS rows)
+petsc::Vector diagonal_of(Mat A, IS rows)
 {
-  petsc::Vector all;
-  petsc::check(MatCreateVecs(A, nullptr, all.put()));
-  petsc::check(MatGetDiagonal(A, all));
+  petsc::Vector all = diagonal(A);
   if (rows == nullptr) return all;
   petsc::Vector some;
   Vec view = nullptr;
@@ -227,11 +220,11 @@ PetscInt eigenvalues_below(Mat K, Mat M, const CountShift& shift, const CountedR
 {
   const double sigma = shift.sigma;
   const petsc::IndexSet free = rows.held.empty() ? petsc::IndexSet() : free_rows(K, rows.held);
-  const Diagonals diagonals{.k = diagonal(K, free), .m = diagonal(M, free)};
+  const Diagonals diagonals{.k = diagonal_of(K, free), .m = diagonal_of(M, free)};
   check_stiffness_is_seen(diagonals, sigma);
   petsc::Matrix A = shifted(K, M, sigma);
   if (free) {
-    A = submatrix(A, free);
+    A = own_submatrix(A, free, free);
     petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
   }
   const OptionSource own = source.part("sylvester_");

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/diagonal.hpp"
 
 namespace chladni::linear {
 
@@ -11,12 +12,9 @@ namespace {
 /// D X with D the diagonal of M.
 petsc::Matrix times_diagonal(Mat X, Mat M)
 {
-  petsc::Vector d;
-  petsc::check(MatCreateVecs(M, nullptr, d.put()));
-  petsc::check(MatGetDiagonal(M, d));
   petsc::Matrix DX;
   petsc::check(MatDuplicate(X, MAT_COPY_VALUES, DX.put()));
-  petsc::check(MatDiagonalScale(DX, d, nullptr));
+  petsc::check(MatDiagonalScale(DX, diagonal(M), nullptr));
   return DX;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "linear/kernels/aligned_numbers.hpp"
 #include "linear/kernels/panel_columns.hpp"
@@ -39,10 +41,106 @@ void for_chunks(PetscInt n_rows, const Work& work)
     work(first, std::min(chunk_rows, n_rows - first));
 }
 
-/// What the tiles leave: fewer than six columns.
-PetscInt tiled_columns(const LongColumns& X)
+/// Long columns six at a time. Where their number is not a multiple of six, the last six come once
+/// more, and where there are fewer, zeros beside them.
+class Tiles {
+ public:
+  static constexpr std::size_t size = std::size_t(tile_rows) * panel_width;  ///< of its sums
+
+  explicit Tiles(const LongColumns& X) : X_(X)
+  {
+    if (X.n_columns > 0 && X.n_columns < tile_rows)
+      filled_up_.resize(std::size_t(chunk_rows) * tile_rows, 0.0);
+  }
+
+  PetscInt n() const { return (X_.n_columns + tile_rows - 1) / tile_rows; }
+  /// The first column of a tile.
+  PetscInt first(PetscInt tile) const
+  {
+    return std::min<PetscInt>(tile * tile_rows, std::max<PetscInt>(X_.n_columns - tile_rows, 0));
+  }
+  /// Places in a tile whose columns are in none before it.
+  std::pair<PetscInt, PetscInt> own_places(PetscInt tile) const
+  {
+    return {tile * tile_rows - first(tile),
+            std::min<PetscInt>(X_.n_columns - first(tile), tile_rows)};
+  }
+
+  /// work(tile, its values in rows first to first + n - 1, their leading dimension)
+  template <typename Work>
+  void for_each(PetscInt first_row, PetscInt n_rows, const Work& work)
+  {
+    const double* values = X_.values + first_row;
+    if (filled_up_.empty()) {
+      for (PetscInt t = 0; t < n(); ++t)
+        work(t, values + first(t) * X_.leading_dimension, X_.leading_dimension);
+      return;
+    }
+    for (PetscInt c = 0; c < X_.n_columns; ++c)
+      std::copy_n(values + c * X_.leading_dimension, n_rows, filled_up_.begin() + c * chunk_rows);
+    work(0, filled_up_.data(), std::ptrdiff_t(chunk_rows));
+  }
+
+ private:
+  LongColumns X_;
+  std::vector<double> filled_up_;  ///< [chunk_rows x 6] by columns
+};
+
+PetscInt n_panels(Eigen::Index n_columns)
 {
-  return X.n_columns / tile_rows * tile_rows;
+  return static_cast<PetscInt>((n_columns + panel_width - 1) / panel_width);
+}
+
+/// The columns of a panel.
+std::pair<PetscInt, PetscInt> columns_of(PetscInt panel, Eigen::Index n_columns)
+{
+  const PetscInt first = panel * panel_width;
+  return {first, static_cast<PetscInt>(std::min<Eigen::Index>(panel_width, n_columns - first))};
+}
+
+enum class Before { kept, overwritten };
+
+/// Y <- Y - X S, or Y <- -X S.
+void subtract(const LongColumns& X, const MatrixXd& S, Before before, double* Y,
+              std::ptrdiff_t leading_dimension)
+{
+  const TileKernels& kernels = tile_kernels();
+  Tiles tiles(X);
+  const PetscInt panels = n_panels(S.cols());
+  const std::size_t panel_size = std::size_t(chunk_rows) * panel_width;
+  const AlignedNumbers rows = aligned_numbers(panel_size * std::size_t(panels));
+  const std::size_t n_factors = std::size_t(tiles.n()) * Tiles::size;
+  const AlignedNumbers factors = aligned_numbers(n_factors * std::size_t(panels));
+  std::fill_n(factors.get(), n_factors * std::size_t(panels), 0.0);
+  const auto factors_of = [&](PetscInt tile, PetscInt panel) {
+    return factors.get() + std::size_t(panel) * n_factors + std::size_t(tile) * Tiles::size;
+  };
+  for (Eigen::Index j = 0; j < S.cols(); ++j) {
+    for (PetscInt t = 0; t < tiles.n(); ++t) {
+      double* column = factors_of(t, static_cast<PetscInt>(j / panel_width)) + j % panel_width;
+      const auto [begin, end] = tiles.own_places(t);
+      for (PetscInt i = begin; i < end; ++i) column[i * panel_width] = S(tiles.first(t) + i, j);
+    }
+  }
+  for_chunks(X.n_rows, [&](PetscInt first, PetscInt n) {
+    const auto panel_of = [&](PetscInt p) { return rows.get() + std::size_t(p) * panel_size; };
+    const auto columns = [&](PetscInt j) { return Y + first + j * leading_dimension; };
+    for (PetscInt p = 0; p < panels; ++p) {
+      const auto [j, width] = columns_of(p, S.cols());
+      if (before == Before::kept)
+        pack(columns(j), leading_dimension, n, width, panel_of(p));
+      else
+        std::fill_n(panel_of(p), std::size_t(n) * panel_width, 0.0);
+    }
+    tiles.for_each(first, n, [&](PetscInt t, const double* values, std::ptrdiff_t ld) {
+      for (PetscInt p = 0; p < panels; ++p)
+        kernels.subtract_tall_transposed(values, ld, n, factors_of(t, p), panel_of(p));
+    });
+    for (PetscInt p = 0; p < panels; ++p) {
+      const auto [j, width] = columns_of(p, S.cols());
+      unpack(panel_of(p), n, width, columns(j), leading_dimension);
+    }
+  });
 }
 
 }  // namespace
@@ -50,29 +148,34 @@ PetscInt tiled_columns(const LongColumns& X)
 MatrixXd tall_inner_product(const LongColumns& X, const LongColumns& Y)
 {
   const TileKernels& kernels = tile_kernels();
-  MatrixXd product = MatrixXd::Zero(X.n_columns, Y.n_columns);
-  const AlignedNumbers rows = aligned_numbers(std::size_t(chunk_rows) * panel_width);
-  const AlignedNumbers sums = aligned_numbers(std::size_t(X.n_columns) * panel_width);
-  for (PetscInt j = 0; j < Y.n_columns; j += panel_width) {
-    const PetscInt width = std::min<PetscInt>(panel_width, Y.n_columns - j);
-    std::fill_n(sums.get(), std::size_t(X.n_columns) * panel_width, 0.0);
-    for_chunks(X.n_rows, [&](PetscInt first, PetscInt n) {
-      pack(Y.values + first + j * Y.leading_dimension, Y.leading_dimension, n, width, rows.get());
-      for (PetscInt c = 0; c < tiled_columns(X); c += tile_rows) {
-        kernels.subtract_tall(X.values + first + c * X.leading_dimension, X.leading_dimension, n,
-                              rows.get(), sums.get() + std::size_t(c) * panel_width);
-      }
-      for (PetscInt c = tiled_columns(X); c < X.n_columns; ++c) {
-        const double* x = X.values + first + c * X.leading_dimension;
-        double* sum = sums.get() + std::size_t(c) * panel_width;
-        for (PetscInt i = 0; i < n; ++i)
-          for (PetscInt k = 0; k < panel_width; ++k)
-            sum[k] -= x[i] * rows.get()[i * panel_width + k];
-      }
+  Tiles tiles(X);
+  const PetscInt panels = n_panels(Y.n_columns);
+  const std::size_t panel_size = std::size_t(chunk_rows) * panel_width;
+  const std::size_t n_sums = std::size_t(tiles.n()) * Tiles::size;
+  const AlignedNumbers rows = aligned_numbers(panel_size * std::size_t(panels));
+  const AlignedNumbers sums = aligned_numbers(n_sums * std::size_t(panels));
+  std::fill_n(sums.get(), n_sums * std::size_t(panels), 0.0);
+  const auto sums_of = [&](PetscInt tile, PetscInt panel) {
+    return sums.get() + std::size_t(panel) * n_sums + std::size_t(tile) * Tiles::size;
+  };
+  for_chunks(X.n_rows, [&](PetscInt first, PetscInt n) {
+    const auto panel_of = [&](PetscInt p) { return rows.get() + std::size_t(p) * panel_size; };
+    for (PetscInt p = 0; p < panels; ++p) {
+      const auto [j, width] = columns_of(p, Y.n_columns);
+      pack(Y.values + first + j * Y.leading_dimension, Y.leading_dimension, n, width, panel_of(p));
+    }
+    tiles.for_each(first, n, [&](PetscInt t, const double* values, std::ptrdiff_t ld) {
+      for (PetscInt p = 0; p < panels; ++p)
+        kernels.subtract_tall(values, ld, n, panel_of(p), sums_of(t, p));
     });
-    for (PetscInt k = 0; k < width; ++k)
-      for (PetscInt i = 0; i < X.n_columns; ++i)
-        product(i, j + k) = -sums.get()[std::size_t(i) * panel_width + k];
+  });
+  MatrixXd product = MatrixXd::Zero(X.n_columns, Y.n_columns);
+  for (PetscInt j = 0; j < Y.n_columns; ++j) {
+    for (PetscInt t = 0; t < tiles.n(); ++t) {
+      const double* sum = sums_of(t, j / panel_width) + j % panel_width;
+      const auto [begin, end] = tiles.own_places(t);
+      for (PetscInt i = begin; i < end; ++i) product(tiles.first(t) + i, j) = -sum[i * panel_width];
+    }
   }
   return product;
 }
@@ -80,30 +183,13 @@ MatrixXd tall_inner_product(const LongColumns& X, const LongColumns& Y)
 void subtract_tall_product(const LongColumns& X, const MatrixXd& S, double* Y,
                            std::ptrdiff_t leading_dimension)
 {
-  const TileKernels& kernels = tile_kernels();
-  const AlignedNumbers rows = aligned_numbers(std::size_t(chunk_rows) * panel_width);
-  const AlignedNumbers factors = aligned_numbers(std::size_t(X.n_columns) * panel_width);
-  for (PetscInt j = 0; j < S.cols(); j += panel_width) {
-    const PetscInt width = static_cast<PetscInt>(std::min<Eigen::Index>(panel_width, S.cols() - j));
-    pack(S.data() + j * S.rows(), S.rows(), static_cast<PetscInt>(S.rows()), width, factors.get());
-    for_chunks(X.n_rows, [&](PetscInt first, PetscInt n) {
-      double* y = Y + first + j * leading_dimension;
-      pack(y, leading_dimension, n, width, rows.get());
-      for (PetscInt c = 0; c < tiled_columns(X); c += tile_rows) {
-        kernels.subtract_tall_transposed(X.values + first + c * X.leading_dimension,
-                                         X.leading_dimension, n,
-                                         factors.get() + std::size_t(c) * panel_width, rows.get());
-      }
-      for (PetscInt c = tiled_columns(X); c < X.n_columns; ++c) {
-        const double* x = X.values + first + c * X.leading_dimension;
-        const double* factor = factors.get() + std::size_t(c) * panel_width;
-        for (PetscInt i = 0; i < n; ++i)
-          for (PetscInt k = 0; k < panel_width; ++k)
-            rows.get()[i * panel_width + k] -= x[i] * factor[k];
-      }
-      unpack(rows.get(), n, width, y, leading_dimension);
-    });
-  }
+  subtract(X, S, Before::kept, Y, leading_dimension);
+}
+
+void tall_product(const LongColumns& X, const MatrixXd& S, double* Y,
+                  std::ptrdiff_t leading_dimension)
+{
+  subtract(X, -S, Before::overwritten, Y, leading_dimension);
 }
 
 }  // namespace chladni::linear

@@ -12,12 +12,16 @@ struct LongColumns {
   PetscInt n_columns;
 };
 
-/// X^T Y of the rows of this rank, for many long columns X and few Y. X is read once for eight
-/// columns of Y and is not packed, as it would be by a general matrix product.
+/// X^T Y of the rows of this rank, for many long columns X and few Y. X is read once and is not
+/// packed, as it would be by a general matrix product.
 Eigen::MatrixXd tall_inner_product(const LongColumns& X, const LongColumns& Y);
 
 /// Y <- Y - X S for few long columns Y.
 void subtract_tall_product(const LongColumns& X, const Eigen::MatrixXd& S, double* Y,
                            std::ptrdiff_t leading_dimension);
+
+/// Y <- X S for few long columns Y, which X does not share.
+void tall_product(const LongColumns& X, const Eigen::MatrixXd& S, double* Y,
+                  std::ptrdiff_t leading_dimension);
 
 }  // namespace chladni::linear

@@ -28,14 +28,27 @@ std::vector<double> sizes(const MatrixXd& G, const MatrixXd& taken)
   return lengths;
 }
 
-/// Y <- Y - X S for local rows of X, Y.
-void subtract_product(Mat X, const MatrixXd& S, Mat Y)
+LongColumns long_columns(const LocalRows& X)
 {
-  const LocalRows x(X);
-  PetscScalar* y = nullptr;
-  petsc::check(MatDenseGetArray(Y, &y));
-  add_product(-1.0, x.values(), x.n_rows(), S, 1.0, y);
-  petsc::check(MatDenseRestoreArray(Y, &y));
+  return {.values = X.values(),
+          .leading_dimension = X.leading_dimension(),
+          .n_rows = X.n_rows(),
+          .n_columns = X.n_cols()};
+}
+
+/// X^T Y for few columns X.
+MatrixXd narrow_inner_product(Mat X, Mat Y)
+{
+  const LocalRows x(X), y(Y);
+  return tall_inner_product(long_columns(x), long_columns(y));
+}
+
+/// X^T Y of all ranks.
+MatrixXd narrow_gram(Mat X, Mat MX)
+{
+  MatrixXd G = narrow_inner_product(X, MX);
+  sum_over_ranks(values_of(G), petsc::communicator(X));
+  return G;
 }
 
 /// Whether a projection took more from some column than it left, G being the Gram matrix of what is
@@ -53,76 +66,90 @@ bool is_large(const MatrixXd& h, const MatrixXd& G)
 }  // namespace
 
 /// block <- block - V_k V_k^T M block for the last two blocks V_k, the only large components in a
-/// Lanczos recurrence; M_block follows without a product. Returns V^T M block, zero elsewhere.
-MatrixXd BlockBasis::project_out_newest(Mat block, Mat M_block)
+/// Lanczos recurrence. Returns V^T M block, zero elsewhere.
+MatrixXd BlockBasis::project_out_newest(Mat block)
 {
-  const LocalRows sizes(block);
-  MatrixXd h = MatrixXd::Zero(n_columns_, sizes.n_cols());
-  PetscInt end = n_columns_;
+  MatrixXd h = MatrixXd::Zero(n_columns_, LocalRows(block).n_cols());
+  PetscInt first = n_columns_;
   for (const petsc::Matrix* M_V : {&newest_M_, &second_last_M_}) {
-    if (*M_V == nullptr || end == 0) break;
-    PetscInt n = 0;
-    petsc::check(MatGetSize(*M_V, nullptr, &n));
-    if (n == 0) continue;
-    end -= n;
-    const MatrixXd h_k = inner_product(*M_V, block);
-    subtract_product(columns(end, n), h_k, block);
-    subtract_product(*M_V, h_k, M_block);
-    h.middleRows(end, n) = h_k;
+    if (*M_V == nullptr || first == 0) break;
+    const MatrixXd h_k = narrow_inner_product(*M_V, block);
+    first -= static_cast<PetscInt>(h_k.rows());
+    h.middleRows(first, h_k.rows()) = h_k;
   }
+  MatrixXd taken = h.bottomRows(n_columns_ - first);
+  sum_over_ranks(values_of(taken), comm());
+  subtract_columns(first, taken, block);
+  h.bottomRows(n_columns_ - first) = taken;
   return h;
+}
+
+/// block <- block - V S with the columns of the basis from the first one given on.
+void BlockBasis::subtract_columns(PetscInt first, const MatrixXd& S, Mat block) const
+{
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArray(block, &values));
+  subtract_tall_product(local_columns(first), S, values, n_local_);
+  petsc::check(MatDenseRestoreArray(block, &values));
+}
+
+/// The columns of the basis from the first one given on.
+LongColumns BlockBasis::local_columns(PetscInt first) const
+{
+  return {.values = values_.get() + std::size_t(first) * n_local_,
+          .leading_dimension = n_local_,
+          .n_rows = n_local_,
+          .n_columns = n_columns_ - first};
 }
 
 /// block <- block - V V^T M block; returns V^T M block.
 MatrixXd BlockBasis::project_out(Mat block, Mat M_block)
 {
   if (n_columns_ == 0) return MatrixXd(0, LocalRows(block).n_cols());
-  const LongColumns V{values_.get(), n_local_, n_local_, n_columns_};
   const LocalRows rows(M_block);
-  MatrixXd h =
-      tall_inner_product(V, {rows.values(), rows.leading_dimension(), n_local_, rows.n_cols()});
-  sum_over_ranks(values_of(h), petsc::communicator(M_));
-  PetscScalar* values = nullptr;
-  petsc::check(MatDenseGetArray(block, &values));
-  subtract_tall_product(V, h, values, n_local_);
-  petsc::check(MatDenseRestoreArray(block, &values));
+  MatrixXd h = tall_inner_product(local_columns(0), long_columns(rows));
+  sum_over_ranks(values_of(h), comm());
+  subtract_columns(0, h, block);
   return h;
 }
 
 /// X to_Q behind the basis, and M X to_Q as the newest.
 void BlockBasis::store(Mat X, Mat MX, const MatrixXd& to_Q)
 {
-  newest_M_ = new_block(to_Q.cols());
+  give_back(std::move(newest_M_));
+  newest_M_ = take_block(to_Q.cols());
   PetscScalar* M_values = nullptr;
   petsc::check(MatDenseGetArrayWrite(newest_M_, &M_values));
   const LocalRows x(X);
   const LocalRows mx(MX);
-  add_product(1.0, x.values(), n_local_, to_Q, 0.0,
-              values_.get() + std::size_t(n_columns_) * n_local_);
-  add_product(1.0, mx.values(), n_local_, to_Q, 0.0, M_values);
+  tall_product(long_columns(x), to_Q, values_.get() + std::size_t(n_columns_) * n_local_, n_local_);
+  tall_product(long_columns(mx), to_Q, M_values, n_local_);
   petsc::check(MatDenseRestoreArrayWrite(newest_M_, &M_values));
 }
 
 BlockBasis::Appended BlockBasis::append(Mat block)
 {
   const LogEvent event(Event::orthogonalization);
-  petsc::Matrix M_block = times_mass(block);
-  MatrixXd h = project_out_newest(block, M_block);
+  MatrixXd h = project_out_newest(block);
+  petsc::Matrix M_block = take_block(h.cols());
+  product_with_M_.apply(block, M_block);
   // What the other blocks still take away is round-off, and once is enough; where it is not, as
   // after a restart, twice is enough.
   const MatrixXd correction = project_out(block, M_block);
-  M_block = times_mass(block);
-  MatrixXd G = inner_product(block, M_block);
+  product_with_M_.apply(block, M_block);
+  MatrixXd G = narrow_gram(block, M_block);
   h += correction;
   if (is_large(correction, G)) {
     h += project_out(block, M_block);
-    M_block = times_mass(block);
-    G = inner_product(block, M_block);
+    product_with_M_.apply(block, M_block);
+    G = narrow_gram(block, M_block);
   }
   const std::vector<double> lengths = sizes(G, h);
+  give_back(std::move(second_last_M_));
   second_last_M_ = std::move(newest_M_);
   Joined joined = join(block, M_block, G, lengths);
   if (joined.R.rows() < G.cols()) return look_again(block, M_block, joined, std::move(h), lengths);
+  give_back(std::move(M_block));
   h += joined.coefficients;
   return {.coefficients = std::move(h),
           .R = std::move(joined.R),

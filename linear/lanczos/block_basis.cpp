@@ -61,6 +61,24 @@ petsc::Matrix BlockBasis::new_block(Eigen::Index n_columns) const
   return uninitialized_dense(M_, n_columns);
 }
 
+petsc::Matrix BlockBasis::take_block(Eigen::Index n_columns)
+{
+  if (spare_.empty() || LocalRows(spare_.back()).n_cols() != n_columns) return new_block(n_columns);
+  petsc::Matrix block = std::move(spare_.back());
+  spare_.pop_back();
+  return block;
+}
+
+void BlockBasis::give_back(petsc::Matrix block)
+{
+  constexpr std::size_t most = 2;
+  if (block == nullptr) return;
+  const bool is_alike =
+      spare_.empty() || LocalRows(spare_.back()).n_cols() == LocalRows(block).n_cols();
+  if (!is_alike) spare_.clear();
+  if (spare_.size() < most) spare_.push_back(std::move(block));
+}
+
 petsc::Matrix BlockBasis::new_vectors(Eigen::Index n_columns) const
 {
   return large_dense(M_, static_cast<PetscInt>(n_columns), scratch_);

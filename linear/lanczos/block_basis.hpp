@@ -8,6 +8,7 @@
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/growing_memory.hpp"
 #include "linear/kernels/sparse_product.hpp"
+#include "linear/kernels/tall_products.hpp"
 
 namespace chladni::linear {
 
@@ -33,6 +34,11 @@ class BlockBasis {
   petsc::Matrix new_block(Eigen::Index n_columns) const;
   /// The same for any number of columns: where the basis is.
   petsc::Matrix new_vectors(Eigen::Index n_columns) const;
+  /// The same, where a block was given back in its memory; not initialised.
+  petsc::Matrix take_block(Eigen::Index n_columns);
+  /// Keeps the memory of a block for later ones of the same width: memory that is new each time
+  /// costs more than the arithmetic on it.
+  void give_back(petsc::Matrix block);
   /// Columns of the basis without a copy; valid until the next append or compress.
   petsc::Matrix columns(PetscInt first, PetscInt n_columns);
   /// M X.
@@ -68,8 +74,10 @@ class BlockBasis {
   petsc::Matrix combine(const Eigen::MatrixXd& S) const;
 
  private:
-  Eigen::MatrixXd project_out_newest(Mat block, Mat M_block);
+  Eigen::MatrixXd project_out_newest(Mat block);
   Eigen::MatrixXd project_out(Mat block, Mat M_block);
+  LongColumns local_columns(PetscInt first) const;
+  void subtract_columns(PetscInt first, const Eigen::MatrixXd& S, Mat block) const;
   /// The decomposition of a block that joined the basis, as Appended, with all that was left out of
   /// it.
   struct Joined {
@@ -94,7 +102,8 @@ class BlockBasis {
   PetscInt n_columns_ = 0;
   petsc::Matrix newest_M_;  ///< M times the last block
   std::vector<petsc::Matrix> lost_;
-  petsc::Matrix second_last_M_;  ///< M times the block before; empty after compress
+  petsc::Matrix second_last_M_;       ///< M times the block before; empty after compress
+  std::vector<petsc::Matrix> spare_;  ///< blocks of one width
   std::string scratch_;
   GrowingMemory values_;  ///< [n_local x capacity] column-major, touched when used
 };

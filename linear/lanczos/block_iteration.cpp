@@ -127,10 +127,11 @@ void BlockIteration::step(const BlockOperator& op)
 {
   assert(!is_full());
   const PetscInt n_new = basis_.n_columns() - n_old_;
-  petsc::Matrix block = basis_.new_block(n_new);
+  petsc::Matrix block = basis_.take_block(n_new);
   op(basis_.columns(n_old_, n_new), basis_.newest_times_mass(), block);
   n_old_ = basis_.n_columns();
   const BlockBasis::Appended appended = basis_.append(block);
+  basis_.give_back(std::move(block));
   note_lost(op);
   T_ = bordered(T_, appended.coefficients);
   left_out_.insert(left_out_.end(), appended.left_out.begin(), appended.left_out.end());

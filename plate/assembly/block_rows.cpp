@@ -1,6 +1,7 @@
 #include "plate/assembly/block_rows.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstddef>
 #include <memory>
@@ -36,12 +37,19 @@ petsc::Matrix matrix_of(SplitRows split, PetscInt n_rows, MPI_Comm comm)
 std::uint64_t components_of(const Eigen::Ref<const Eigen::MatrixXd>& A_e, int n)
 {
   std::uint64_t found = 0;
-  for (Eigen::Index column = 0; column < A_e.cols(); ++column) {
-    const double* entries = A_e.data() + column * A_e.outerStride();
-    std::uint64_t of_rows = 0;  // bit i
-    for (Eigen::Index first = 0; first < A_e.rows(); first += n)
-      for (int i = 0; i < n; ++i) of_rows |= std::uint64_t{entries[first + i] != 0.0} << i;
-    found |= of_rows << (n * (column % n));
+  std::vector<std::uint64_t> bits(static_cast<std::size_t>(A_e.rows()));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    // Numbers of one row, whose bits without the sign are zero where all of them are.
+    std::ranges::fill(bits, 0);
+    for (Eigen::Index column = i; column < A_e.cols(); column += n) {
+      const double* entries = A_e.data() + column * A_e.outerStride();
+      for (std::size_t k = 0; k < bits.size(); ++k)
+        bits[k] |= std::bit_cast<std::uint64_t>(entries[k]) << 1U;
+    }
+    for (std::size_t k = 0; k < bits.size(); ++k) {
+      const auto j = static_cast<Eigen::Index>(k) % n;
+      found |= std::uint64_t{bits[k] != 0} << (n * i + j);
+    }
   }
   return found;
 }
