@@ -12,6 +12,15 @@ namespace {
 /// Whether a product is added to what is there.
 enum class Start { zero, there };
 
+/// Asks for what comes behind some numbers that are about to be read, and as much of it.
+template <typename Number>
+[[gnu::always_inline]] inline void ask_ahead(const Number* numbers, PetscInt n)
+{
+  constexpr std::size_t distance = 2048, cache_line = 64;  // bytes
+  for (std::size_t at = 0; at < std::size_t(n); at += cache_line / sizeof(Number))
+    __builtin_prefetch(numbers + distance / sizeof(Number) + at);
+}
+
 /// `alike` rows of Y <- A panel, from row i on, which have the same columns: what they multiply is
 /// read once.
 template <PetscInt width, int alike, Start start>
@@ -34,6 +43,8 @@ template <PetscInt width, int alike, Start start>
   }
   const PetscInt* columns = A.columns + A.starts[i];
   const PetscInt n = A.starts[i + 1] - A.starts[i];
+  ask_ahead(values[0], alike * n);
+  ask_ahead(columns, n);
   for (PetscInt k = 0; k < n; ++k) {
     const double* from = panel + std::size_t(columns[k]) * width;
     for (int l = 0; l < n_lines; ++l) {
@@ -49,7 +60,7 @@ template <PetscInt width, int alike, Start start>
 constexpr int most_alike = 3;  // rows at a time: the sums of more have no registers
 
 /// Y <- A panel in some rows, Y row by row like the panel. The processor asks for what it needs of
-/// the panel soon enough by itself: asking ahead for it took longer.
+/// the panel soon enough by itself: asking ahead for it, as for the entries, took longer.
 /// @param n_alike  [rows of A] how many from this one on have the same columns, up to `most_alike`
 template <PetscInt width>
 [[gnu::always_inline]] inline void multiply_panel(const Csr& A, const char* n_alike,

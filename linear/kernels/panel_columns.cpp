@@ -10,6 +10,7 @@ namespace chladni::linear {
 namespace {
 
 constexpr PetscInt line = line_numbers;
+constexpr std::size_t ahead = 64;  // numbers: what to ask the memory for; eight columns are many
 
 struct Lines {
   Line at[line];  // NOLINT(modernize-avoid-c-arrays): its elements are not passed by value
@@ -66,7 +67,11 @@ void line_to_panel(const double* const* columns, PetscInt n_columns, const Panel
   for (PetscInt i = 0; i < rows.n;) {
     if (n_columns == line && are_in_line(rows, i)) {
       Lines x;
-      for (int c = 0; c < line; ++c) load(columns[c] + row_of(rows, i), x.at[c]);
+      for (int c = 0; c < line; ++c) {
+        const double* from = columns[c] + row_of(rows, i);
+        __builtin_prefetch(from + ahead);
+        load(from, x.at[c]);
+      }
       transpose(x);
       for (int k = 0; k < line; ++k) store(x.at[k], panel + slot_of(rows, i + k) * width);
       i += line;
@@ -88,7 +93,11 @@ void line_to_columns(const double* panel, PetscInt width, const PanelRows& rows,
       Lines x;
       for (int k = 0; k < line; ++k) load(panel + slot_of(rows, i + k) * width, x.at[k]);
       transpose(x);
-      for (int c = 0; c < line; ++c) store(x.at[c], columns[c] + row_of(rows, i));
+      for (int c = 0; c < line; ++c) {
+        double* to = columns[c] + row_of(rows, i);
+        __builtin_prefetch(to + ahead, 1);
+        store(x.at[c], to);
+      }
       i += line;
     } else {
       const double* from = panel + slot_of(rows, i) * width;

@@ -9,16 +9,31 @@ namespace chladni::linear {
 namespace {
 
 // How a tile of six rows stands in memory: column after column, or as six long columns of a matrix.
+// The processor asks for what follows by itself, but not beyond a page, and of six columns at once
+// too late; asking ahead makes solutions and projections a fifth faster.
 
 struct Packed {
   static constexpr std::ptrdiff_t row() { return 1; }
   static constexpr std::ptrdiff_t column() { return tile_rows; }
+  /// What to ask for at a column: there are as many as lines of eight numbers, or more.
+  static const double* ahead(const double* tile, int /*column*/)
+  {
+    constexpr std::ptrdiff_t distance = 384;
+    return tile + distance;
+  }
 };
 
 struct Tall {
   std::ptrdiff_t leading_dimension;
   std::ptrdiff_t row() const { return leading_dimension; }
   static constexpr std::ptrdiff_t column() { return 1; }
+  /// A line of one of the six at each of eight numbers.
+  const double* ahead(const double* tile, int column) const
+  {
+    constexpr std::ptrdiff_t distance = 64;
+    const int next = column % panel_width;
+    return tile + distance + (next < tile_rows ? next : 0) * leading_dimension;
+  }
 };
 
 namespace portable {
@@ -104,6 +119,7 @@ template <typename Strides>
     right[r] = _mm256_loadu_pd(Y + r * panel_width + 4);
   }
   for (int c = 0; c < n_columns; ++c, tile += strides.column(), X += panel_width) {
+    __builtin_prefetch(strides.ahead(tile, c));
     const __m256d x_left = _mm256_loadu_pd(X), x_right = _mm256_loadu_pd(X + 4);
 #pragma GCC unroll 6
     for (int r = 0; r < tile_rows; ++r) {
@@ -130,6 +146,7 @@ template <typename Strides>
     right[r] = _mm256_loadu_pd(Y + r * panel_width + 4);
   }
   for (int c = 0; c < n_columns; ++c, tile += strides.column(), X += panel_width) {
+    __builtin_prefetch(strides.ahead(tile, c));
     __m256d x_left = _mm256_loadu_pd(X), x_right = _mm256_loadu_pd(X + 4);
 #pragma GCC unroll 6
     for (int r = 0; r < tile_rows; ++r) {
