@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "common/checked_count.hpp"
@@ -402,6 +403,9 @@ TEST_P(TallProducts, AreThoseOfDenseAlgebra)
   MatrixXd left = Y;
   subtract_tall_product(basis, h, left.data(), n_rows);
   EXPECT_LT((left - (Y - V * expected)).norm(), 1e-11);
+  MatrixXd product = MatrixXd::Constant(n_rows, n_block, std::nan(""));  // is not read
+  tall_product(basis, h, product.data(), n_rows);
+  EXPECT_LT((product - V * expected).norm(), 1e-11);
 }
 
 }  // namespace

@@ -29,6 +29,17 @@ void load(const double* rows, int n, TileRows& to)
   std::fill(to.values.begin() + n * panel_width, to.values.end(), 0.0);
 }
 
+/// Up to six numbers of a column, and zeros for those that there are not.
+void copy_column(const double* column, int n, double* to)
+{
+  if (n == tile_rows) {  // of a known number, which needs no call
+    std::copy_n(column, tile_rows, to);
+    return;
+  }
+  std::copy_n(column, n, to);
+  std::fill(to + n, to + tile_rows, 0.0);
+}
+
 /// The rows below that belong to tile t.
 std::span<const int> rows_of_tile(std::span<const int> below, int t)
 {
@@ -50,10 +61,8 @@ void store_tiles(const double* columns, int n_columns, int n_below, double* tile
   const std::size_t ld = std::size_t(n_columns) + n_below;
   for (int first = 0; first < n_columns; first += tile_rows) {
     const int n = std::min(tile_rows, n_columns - first);
-    for (int c = 0; c < first; ++c, tiles += tile_rows) {
-      std::copy_n(columns + c * ld + first, n, tiles);
-      std::fill(tiles + n, tiles + tile_rows, 0.0);
-    }
+    for (int c = 0; c < first; ++c, tiles += tile_rows)
+      copy_column(columns + c * ld + first, n, tiles);
     std::fill_n(tiles, triangle_size, 0.0);
     for (int i = 0; i < n; ++i) {
       for (int j = 0; j < i; ++j) tiles[i * tile_rows + j] = columns[(first + j) * ld + first + i];
@@ -63,10 +72,8 @@ void store_tiles(const double* columns, int n_columns, int n_below, double* tile
   }
   for (int first = 0; first < n_below; first += tile_rows) {
     const int n = std::min(tile_rows, n_below - first);
-    for (int c = 0; c < n_columns; ++c, tiles += tile_rows) {
-      std::copy_n(columns + c * ld + n_columns + first, n, tiles);
-      std::fill(tiles + n, tiles + tile_rows, 0.0);
-    }
+    for (int c = 0; c < n_columns; ++c, tiles += tile_rows)
+      copy_column(columns + c * ld + n_columns + first, n, tiles);
   }
 }
 
