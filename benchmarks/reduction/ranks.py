@@ -18,8 +18,8 @@ import run
 
 HERE = pathlib.Path(__file__).resolve().parent
 COUNTER = run.ROOT / "build/release/benchmarks/reduction/libwork_outside_mpi.so"
-SIZES = {"73k": 0.009, "300k": 0.0041, "1M": 0.00225}
-RANKS = {"73k": (1, 2, 4, 8, 16, 32, 64), "300k": (1, 2, 4, 8, 16, 32, 64), "1M": (1, 2, 16, 32)}
+SIZES = {"73k": 0.009, "300k": 0.0041, "500k": 0.0031, "1M": 0.00225}
+RANKS = {"73k": (1, 2, 4, 8, 16, 32, 64), "300k": (1, 2, 4, 8, 16, 32, 64), "500k": (1, 64), "1M": (1, 2, 16, 32)}
 CARRIED_ON_TO = 4e6  # DOFs
 BOUND_BY_MEMORY = "CMSSolve"  # the event whose speed is that of memory
 
@@ -88,19 +88,28 @@ def judged(runs, machine):
     return entries
 
 
+def grown(points, dofs):
+    """Seconds at a larger size, of a power law through (DOFs, seconds) of some discs by least squares, from the largest of them on."""
+    x, y = [math.log(size) for size, _ in points], [math.log(seconds) for _, seconds in points]
+    mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
+    rate = sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x) ** 2 for a in x)
+    size, seconds = max(points)
+    return seconds * (dofs / size) ** max(0.0, rate)
+
+
 def carried_on(entries, dofs):
-    """Efficiencies at a larger size, {ranks: (efficiency, largest disc)}: each phase grows with the DOFs as it does between the two
-    largest discs that have a number of ranks."""
-    def grown(ranks):
-        small, large = sorted((e for e in entries if e["ranks"] == ranks), key=lambda e: e["dofs"])[-2:]
-        by = dofs / large["dofs"]
-        rate = lambda phase: math.log(large["phases_s"][phase] / small["phases_s"][phase]) / math.log(large["dofs"] / small["dofs"])
-        # What does not grow is a constant; what seems to shrink is noise.
-        return sum(s * by ** max(0.0, rate(phase) if small["phases_s"].get(phase) else 1.0) for phase, s in large["phases_s"].items())
-    numbers = sorted({e["ranks"] for e in entries})
-    known = [n for n in numbers if sum(e["ranks"] == n for e in entries) >= 2]
-    largest = {n: max((e for e in entries if e["ranks"] == n), key=lambda e: e["dofs"])["disc"] for n in known}
-    return {n: (grown(1) / grown(n) / n, largest[n]) for n in known if n > 1}
+    """Efficiencies at a larger size, {ranks: (efficiency, discs)}: the time on one rank, and what more ranks take beyond their share of it,
+    each grow over the discs by a power of their own."""
+    alone = {e["dofs"]: e["predicted_s"] for e in entries if e["ranks"] == 1}
+    further = {}
+    for ranks in sorted({e["ranks"] for e in entries} - {1}):
+        known = [e for e in entries if e["ranks"] == ranks]
+        losses = [(e["dofs"], e["predicted_s"] - alone[e["dofs"]] / ranks) for e in known]
+        if len(losses) < 2 or min(seconds for _, seconds in losses) <= 0.0:
+            continue
+        one = grown(list(alone.items()), dofs)
+        further[ranks] = (one / (one + ranks * grown(losses, dofs)), [e["disc"] for e in known])
+    return further
 
 
 def table(entries, machine, here):
@@ -124,14 +133,11 @@ def table(entries, machine, here):
                      f"{e['bytes'] / 1e6:.0f} | {e['peak_MiB']:.0f} | {e['mean_work_s']:.2f} | {e['predicted_s']:.2f} | {e['speedup']:.1f} | "
                      f"{100 * e['efficiency']:.0f} % | {losses} | {e['change_of_frequencies']:.0e} |")
     further = carried_on(entries, CARRIED_ON_TO)
-    if further and len({e["disc"] for e in entries}) > 1:
-        said = []
-        for disc in reversed(SIZES):
-            shares = [f"{100 * share:.0f} % on {n}" for n, (share, largest) in further.items() if largest == disc]
-            if shares:
-                said.append(f"from the disc of {disc}, {', '.join(shares)} ranks")
-        lines += ["", f"Efficiency carried on to {CARRIED_ON_TO / 1e6:.0f} million DOFs, each phase as it grew between the two largest discs of "
-                  f"a number of ranks: {'; '.join(said)}. The further it is carried, the less it says."]
+    if further:
+        lines += ["", f"Carried on to {CARRIED_ON_TO / 1e6:.0f} million DOFs, the time on one rank and what more ranks take beyond their share of "
+                  "it growing on by the power of the DOFs with which they grow over the discs:", "", "| ranks | discs | efficiency |",
+                  "|---|---|---|"]
+        lines += [f"| {ranks} | {', '.join(discs)} | {100 * share:.0f} % |" for ranks, (share, discs) in further.items()]
     two = [e for e in entries if e["ranks"] == 2]
     lines += ["", "The model beside this machine, where two ranks have a core each:", "", "| disc | predicted, s | measured, s |", "|---|---|---|"]
     lines += [f"| {e['disc']} | {e['predicted_s']:.2f} | {e['wall_s']:.2f} |" for e in two]
@@ -150,8 +156,8 @@ def main():
         runs = [measure(pathlib.Path(folder), name, ranks) for name, counts in wanted.items() for ranks in counts]
     entries = judged(runs, machine)
     arguments.output.mkdir(parents=True, exist_ok=True)
-    result = {"machine": machine, "here": run.machine(), "carried_on": {str(n): share for n, (share, _) in carried_on(entries, CARRIED_ON_TO).items()}
-              if len(wanted) > 1 else {}, "runs": entries}
+    result = {"machine": machine, "here": run.machine(), "carried_on": {str(n): share for n, (share, _) in carried_on(entries, CARRIED_ON_TO).items()},
+              "runs": entries}
     (arguments.output / "reduction_ranks.json").write_text(json.dumps(result, indent=1))
     text = table(entries, machine, result["here"])
     (arguments.output / "reduction_ranks.md").write_text(text)

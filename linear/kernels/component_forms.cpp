@@ -7,6 +7,7 @@
 #include "linear/kernels/aligned_numbers.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/gather.hpp"
+#include "linear/kernels/own_submatrix.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "linear/progress.hpp"
 
@@ -222,8 +223,7 @@ MatrixXd inner_in_rows(const Eigen::Ref<const MatrixXd>& X, const Values& Y,
 /// @param is_symmetric  A_rc and r = c: the upper triangle alone
 MatrixXd block_form(const Group& r, Mat A, const Group& c, bool is_symmetric)
 {
-  petsc::Matrix A_rc;
-  petsc::check(MatCreateSubMatrix(A, r.set, c.set, MAT_INITIAL_MATRIX, A_rc.put()));
+  const petsc::Matrix A_rc = own_submatrix(A, r.set, c.set);
   const SparseProduct product(A_rc);
   const Values X_r(r.values.get(), std::ssize(r.rows), std::ssize(r.columns));
   const std::vector<PetscInt> rows = rows_with_entries(A_rc);

@@ -6,6 +6,7 @@
 #include "common/index_sets.hpp"
 #include "linear/kernels/decoupled_rows.hpp"
 #include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/own_submatrix.hpp"
 
 namespace chladni::linear {
 
@@ -77,11 +78,9 @@ petsc::Matrix matrix_of(const FormPart& part, Mat A)
   std::vector<PetscInt> global = part.rows;
   for (PetscInt& row : global) row += begin;
   petsc::IndexSet rows;
-  petsc::Matrix block;
   petsc::check(ISCreateGeneral(petsc::communicator(A), static_cast<PetscInt>(global.size()),
                                global.data(), PETSC_USE_POINTER, rows.put()));
-  petsc::check(MatCreateSubMatrix(A, rows, rows, MAT_INITIAL_MATRIX, block.put()));
-  return block;
+  return own_submatrix(A, rows, rows);
 }
 
 }  // namespace chladni::linear
