@@ -99,7 +99,7 @@ def scipy_run(folder, modes, shared):
 
 
 def chladni_run(folder, path, options=()):
-    words = [run.CHLADNI, "reduce", path, "--output", folder, "--overwrite", "--json", folder / "summary.json"]
+    words = [run.CHLADNI, "reduce", path, "--output", folder, "--json", folder / "summary.json"]
     usage = run.timed([*words, *(["--", *options] if options else [])], folder)
     found = json.loads((folder / "summary.json").read_text())
     return {"wall_s": usage["wall_s"], "cpu_s": usage["cpu_s"], "peak_MiB": usage["peak_MiB"], "dofs": found["n_dofs"],
@@ -147,7 +147,7 @@ def table(result):
     lines = ["# Reduction beside scipy", "",
              "Wall and CPU seconds and peak memory of the whole process, one thread; Chladni's include mesh, assembly and "
              "error estimates, scipy reads the matrices from files and estimates nothing. Of Chladni's runs, before, between and "
-             "after those of scipy, the middle one of three. Written by `benchmarks/reduction/peers.py`.", "",
+             "after those of scipy, the middle one of three by CPU time. Written by `benchmarks/reduction/peers.py`.", "",
              f"{result['machine']['processor']}, commit {result['machine']['commit']}.", "",
              "scipy with one factor: that of the constraint modes serves eigsh too; eigsh alone: the call "
              "of its documentation, which factors in another order. Chladni, exact: with "

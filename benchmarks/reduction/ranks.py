@@ -100,14 +100,14 @@ def grown(points, dofs):
 def carried_on(entries, dofs):
     """Efficiencies at a larger size, {ranks: (efficiency, discs)}: the time on one rank, and what more ranks take beyond their share of it,
     each grow over the discs by a power of their own."""
-    alone = {e["dofs"]: e["predicted_s"] for e in entries if e["ranks"] == 1}
+    alone = {e["disc"]: e for e in entries if e["ranks"] == 1}
     further = {}
     for ranks in sorted({e["ranks"] for e in entries} - {1}):
         known = [e for e in entries if e["ranks"] == ranks]
-        losses = [(e["dofs"], e["predicted_s"] - alone[e["dofs"]] / ranks) for e in known]
+        losses = [(e["dofs"], e["predicted_s"] - alone[e["disc"]]["predicted_s"] / ranks) for e in known]
         if len(losses) < 2 or min(seconds for _, seconds in losses) <= 0.0:
             continue
-        one = grown(list(alone.items()), dofs)
+        one = grown([(e["dofs"], e["predicted_s"]) for e in alone.values()], dofs)
         further[ranks] = (one / (one + ranks * grown(losses, dofs)), [e["disc"] for e in known])
     return further
 

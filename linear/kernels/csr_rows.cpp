@@ -59,8 +59,8 @@ template <PetscInt width, int alike, Start start>
 
 constexpr int most_alike = 3;  // rows at a time: the sums of more have no registers
 
-/// Y <- A panel in some rows, Y row by row like the panel. The processor asks for what it needs of
-/// the panel soon enough by itself: asking ahead for it, as for the entries, took longer.
+/// Y <- A panel in some rows, Y row by row like the panel. The entries are asked for ahead. What
+/// it needs of the panel the processor asks for soon enough by itself: asking ahead took longer.
 /// @param n_alike  [rows of A] how many from this one on have the same columns, up to `most_alike`
 template <PetscInt width>
 [[gnu::always_inline]] inline void multiply_panel(const Csr& A, const char* n_alike,

@@ -21,7 +21,8 @@ Mat sequential_part(Mat A)
   return is_of_type(own, MATSEQAIJ) ? own : nullptr;
 }
 
-/// @return false where some row has no entry there, or is not in order
+/// @return false where some row has no entry there, or it is not found since the row is not in
+/// order
 bool read_diagonal(Mat own, PetscScalar* diagonal)
 {
   PetscInt n = 0;

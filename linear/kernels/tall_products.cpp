@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 
 namespace {
 
-constexpr PetscInt chunk_rows = 256;  // with eight columns half of a first-level cache
+constexpr PetscInt chunk_rows = 256;  // eight columns of them take half of a first-level cache
 
 /// n rows of at most eight long columns side by side, and zeros for those that there are not.
 void pack(const double* columns, std::ptrdiff_t ld, PetscInt n, PetscInt n_columns, double* rows)
@@ -154,9 +154,12 @@ MatrixXd tall_inner_product(const LongColumns& X, const LongColumns& Y)
   const std::size_t n_sums = std::size_t(tiles.n()) * Tiles::size;
   const AlignedNumbers rows = aligned_numbers(panel_size * std::size_t(panels));
   const AlignedNumbers sums = aligned_numbers(n_sums * std::size_t(panels));
-  std::fill_n(sums.get(), n_sums * std::size_t(panels), 0.0);
-  const auto sums_of = [&](PetscInt tile, PetscInt panel) {
-    return sums.get() + std::size_t(panel) * n_sums + std::size_t(tile) * Tiles::size;
+  // Sums over a million rows one after the other would lose a digit more than sums of sums.
+  constexpr PetscInt rows_of_sum = 32 * chunk_rows;
+  std::vector<double> totals(n_sums * std::size_t(panels), 0.0);
+  std::fill_n(sums.get(), totals.size(), 0.0);
+  const auto place_of = [&](PetscInt tile, PetscInt panel) {
+    return std::size_t(panel) * n_sums + std::size_t(tile) * Tiles::size;
   };
   for_chunks(X.n_rows, [&](PetscInt first, PetscInt n) {
     const auto panel_of = [&](PetscInt p) { return rows.get() + std::size_t(p) * panel_size; };
@@ -166,13 +169,16 @@ MatrixXd tall_inner_product(const LongColumns& X, const LongColumns& Y)
     }
     tiles.for_each(first, n, [&](PetscInt t, const double* values, std::ptrdiff_t ld) {
       for (PetscInt p = 0; p < panels; ++p)
-        kernels.subtract_tall(values, ld, n, panel_of(p), sums_of(t, p));
+        kernels.subtract_tall(values, ld, n, panel_of(p), sums.get() + place_of(t, p));
     });
+    if ((first + n) % rows_of_sum != 0 && first + n != X.n_rows) return;
+    for (std::size_t i = 0; i < totals.size(); ++i) totals[i] += sums.get()[i];
+    std::fill_n(sums.get(), totals.size(), 0.0);
   });
   MatrixXd product = MatrixXd::Zero(X.n_columns, Y.n_columns);
   for (PetscInt j = 0; j < Y.n_columns; ++j) {
     for (PetscInt t = 0; t < tiles.n(); ++t) {
-      const double* sum = sums_of(t, j / panel_width) + j % panel_width;
+      const double* sum = totals.data() + place_of(t, j / panel_width) + j % panel_width;
       const auto [begin, end] = tiles.own_places(t);
       for (PetscInt i = begin; i < end; ++i) product(tiles.first(t) + i, j) = -sum[i * panel_width];
     }

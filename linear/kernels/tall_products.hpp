@@ -12,8 +12,8 @@ struct LongColumns {
   PetscInt n_columns;
 };
 
-/// X^T Y of the rows of this rank, for many long columns X and few Y. X is read once and is not
-/// packed, as it would be by a general matrix product.
+/// X^T Y of the rows of this rank, for long columns X and few Y. X is read once and, from six
+/// columns on, not copied, as it would be by a general matrix product.
 Eigen::MatrixXd tall_inner_product(const LongColumns& X, const LongColumns& Y);
 
 /// Y <- Y - X S for few long columns Y.

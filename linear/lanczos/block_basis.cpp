@@ -7,7 +7,6 @@
 
 #include "linear/kernels/scratch.hpp"
 #include "linear/kernels/small_matrices.hpp"
-#include "linear/kernels/tall_products.hpp"
 #include "linear/machine_memory.hpp"
 
 namespace chladni::linear {

@@ -34,7 +34,7 @@ class BlockBasis {
   petsc::Matrix new_block(Eigen::Index n_columns) const;
   /// The same for any number of columns: where the basis is.
   petsc::Matrix new_vectors(Eigen::Index n_columns) const;
-  /// The same, where a block was given back in its memory; not initialised.
+  /// As `new_block`, in the memory of a block that was given back.
   petsc::Matrix take_block(Eigen::Index n_columns);
   /// Keeps the memory of a block for later ones of the same width: memory that is new each time
   /// costs more than the arithmetic on it.

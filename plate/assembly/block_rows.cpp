@@ -39,7 +39,7 @@ std::uint64_t components_of(const Eigen::Ref<const Eigen::MatrixXd>& A_e, int n)
   std::uint64_t found = 0;
   std::vector<std::uint64_t> bits(static_cast<std::size_t>(A_e.rows()));
   for (Eigen::Index i = 0; i < n; ++i) {
-    // Numbers of one row, whose bits without the sign are zero where all of them are.
+    // Bits of the entries without their signs, of all nodes together: zero where all of them are.
     std::ranges::fill(bits, 0);
     for (Eigen::Index column = i; column < A_e.cols(); column += n) {
       const double* entries = A_e.data() + column * A_e.outerStride();

@@ -35,7 +35,13 @@ petsc::Matrix chain(const std::function<bool(PetscInt)>& has_itself)
 
 TEST(Diagonal, IsThatOfEveryRow)
 {
-  expect_as_by_petsc(chain([](PetscInt) { return true; }));
+  const petsc::Matrix A = chain([](PetscInt) { return true; });
+  expect_as_by_petsc(A);
+  PetscInt row = 0;
+  PetscReal largest = 0.0;
+  petsc::check(VecMax(diagonal(A), &row, &largest));
+  EXPECT_EQ(row, 29);
+  EXPECT_EQ(largest, 31.0);
 }
 
 TEST(Diagonal, IsZeroWhereARowHasNone)
