@@ -39,6 +39,8 @@ class BlockBasis {
   /// Keeps the memory of a block for later ones of the same width: memory that is new each time
   /// costs more than the arithmetic on it.
   void give_back(petsc::Matrix block);
+  /// Keeps it no longer: nothing is to be appended soon.
+  void release_given_back() { spare_.clear(); }
   /// Columns of the basis without a copy; valid until the next append or compress.
   petsc::Matrix columns(PetscInt first, PetscInt n_columns);
   /// M X.

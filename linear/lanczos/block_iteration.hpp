@@ -39,6 +39,8 @@ class BlockIteration {
   void start(const BlockOperator& op, Mat guesses, PetscInt n_guesses);
   /// An empty dense matrix with the rows of M.
   petsc::Matrix new_block(PetscInt n_columns) const { return basis_.new_block(n_columns); }
+  /// Gives memory back that only further steps need.
+  void release_memory_of_steps() { basis_.release_given_back(); }
   /// Adds the newest block to V; the result of the operator on it becomes the newest block.
   void step(const BlockOperator& op);
   /// Solves the projected problem; fills `theta`.

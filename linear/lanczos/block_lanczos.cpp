@@ -180,6 +180,12 @@ void BlockLanczos::converge_beyond(double lambda, PetscInt most)
 
 void BlockLanczos::converge(Goal goal)
 {
+  iterate(goal);
+  iteration_.release_memory_of_steps();
+}
+
+void BlockLanczos::iterate(Goal goal)
+{
   iteration_.reserve(capacity(goal.n_pairs, n_rows_, options_));
   if (n_solves_ == 0) iteration_.start(op_);
   next_look_ = 0;

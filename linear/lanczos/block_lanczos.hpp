@@ -99,6 +99,7 @@ class BlockLanczos {
     PetscInt most = 0;
   };
   void converge(Goal goal);
+  void iterate(Goal goal);
   void raise(Goal& goal);
   bool has_converged(Goal& goal);
   bool has_ended(const RitzValues& pairs, PetscInt n_pairs);
