@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "common/index_sets.hpp"
-#include "linear/kernels/own_submatrix.hpp"
 #include "linear/kernels/scratch.hpp"
 
 namespace chladni::linear {
@@ -55,7 +54,7 @@ PartedLanczos::PartedLanczos(std::vector<DecoupledPart> parts, Mat M,
   for (DecoupledPart& given : parts) {
     Part part;
     PetscReal largest = 0.0;
-    part.M = own_submatrix(M, given.rows, given.rows);
+    petsc::check(MatCreateSubMatrix(M, given.rows, given.rows, MAT_INITIAL_MATRIX, part.M.put()));
     petsc::check(MatNorm(part.M, NORM_INFINITY, &largest));
     if (largest == 0.0 || given.most == 0) continue;
     part.rows = petsc::own_rows(given.rows, M);
