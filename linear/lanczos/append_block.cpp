@@ -36,14 +36,14 @@ LongColumns long_columns(const LocalRows& X)
           .n_columns = X.n_cols()};
 }
 
-/// X^T Y for few columns X.
+/// X^T Y of the rows of this rank, for few columns X.
 MatrixXd narrow_inner_product(Mat X, Mat Y)
 {
   const LocalRows x(X), y(Y);
   return tall_inner_product(long_columns(x), long_columns(y));
 }
 
-/// X^T Y of all ranks.
+/// X^T M X, on every rank.
 MatrixXd narrow_gram(Mat X, Mat MX)
 {
   MatrixXd G = narrow_inner_product(X, MX);

@@ -408,5 +408,14 @@ TEST_P(TallProducts, AreThoseOfDenseAlgebra)
   EXPECT_LT((product - V * expected).norm(), 1e-11);
 }
 
+TEST(TallInnerProduct, OfManyRowsIsTheSumOfItsPieces)
+{
+  const int n_rows = 20'000, n_X = 7, n_Y = 8;  // more rows than are summed up one after the other
+  const MatrixXd X = random_matrix(n_rows, n_X), Y = random_matrix(n_rows, n_Y);
+  const Eigen::MatrixXd product =
+      tall_inner_product({X.data(), n_rows, n_rows, n_X}, {Y.data(), n_rows, n_rows, n_Y});
+  EXPECT_LT((product - X.transpose() * Y).norm(), 1e-15 * X.norm() * Y.norm());
+}
+
 }  // namespace
 }  // namespace chladni::linear
