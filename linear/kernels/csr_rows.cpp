@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "common/fitting_instructions.hpp"
-#include "linear/kernels/lines.hpp"
+#include "linear/kernels/lanes.hpp"
 
 namespace chladni::linear {
 
@@ -23,23 +22,25 @@ template <typename Number>
 
 /// `alike` rows of Y <- A panel, from row i on, which have the same columns: what they multiply is
 /// read once.
-template <PetscInt width, int alike, Start start>
+template <int numbers, PetscInt width, int alike, Start start>
 [[gnu::always_inline]] inline void multiply_rows(const Csr& A, PetscInt i, const double* panel,
                                                  double* Y)
 {
-  constexpr int n_lines = width / line_numbers;
+  constexpr int n_lanes = width / numbers;
   // NOLINTBEGIN(modernize-avoid-c-arrays): sums that stay in registers
-  Line sum[alike][n_lines];
+  Lane<numbers> sum[alike][n_lanes];
   const PetscScalar* values[alike];
   // NOLINTEND(modernize-avoid-c-arrays)
   double* y = Y + std::size_t(i) * width;
+#pragma GCC unroll 8
   for (int r = 0; r < alike; ++r) {
     values[r] = A.values + A.starts[i + r];
-    for (int l = 0; l < n_lines; ++l)
+#pragma GCC unroll 8
+    for (int l = 0; l < n_lanes; ++l)
       if constexpr (start == Start::there)
-        load(y + r * width + l * line_numbers, sum[r][l]);
+        load(y + r * width + l * numbers, sum[r][l]);
       else
-        sum[r][l] = Line{};
+        sum[r][l] = Lane<numbers>{};
   }
   const PetscInt* columns = A.columns + A.starts[i];
   const PetscInt n = A.starts[i + 1] - A.starts[i];
@@ -47,14 +48,18 @@ template <PetscInt width, int alike, Start start>
   ask_ahead(columns, n);
   for (PetscInt k = 0; k < n; ++k) {
     const double* from = panel + std::size_t(columns[k]) * width;
-    for (int l = 0; l < n_lines; ++l) {
-      Line x;
-      load(from + l * line_numbers, x);
-      for (int r = 0; r < alike; ++r) sum[r][l] += values[r][k] * x;
+#pragma GCC unroll 8
+    for (int l = 0; l < n_lanes; ++l) {
+      Lane<numbers> x;
+      load(from + l * numbers, x);
+#pragma GCC unroll 8
+      for (int r = 0; r < alike; ++r) sum[r][l].values += values[r][k] * x.values;
     }
   }
+#pragma GCC unroll 8
   for (int r = 0; r < alike; ++r)
-    for (int l = 0; l < n_lines; ++l) store(sum[r][l], y + r * width + l * line_numbers);
+#pragma GCC unroll 8
+    for (int l = 0; l < n_lanes; ++l) store(sum[r][l], y + r * width + l * numbers);
 }
 
 constexpr int most_alike = 3;  // rows at a time: the sums of more have no registers
@@ -62,7 +67,7 @@ constexpr int most_alike = 3;  // rows at a time: the sums of more have no regis
 /// Y <- A panel in some rows, Y row by row like the panel. The entries are asked for ahead. What
 /// it needs of the panel the processor asks for soon enough by itself: asking ahead took longer.
 /// @param n_alike  [rows of A] how many from this one on have the same columns, up to `most_alike`
-template <PetscInt width>
+template <int numbers, PetscInt width>
 [[gnu::always_inline]] inline void multiply_panel(const Csr& A, const char* n_alike,
                                                   const RowSpan& rows, const double* panel,
                                                   double* Y)
@@ -70,13 +75,22 @@ template <PetscInt width>
   for (PetscInt i = rows.first; i < rows.last;) {
     const PetscInt alike = std::min<PetscInt>(n_alike[i], rows.last - i);
     if (alike >= 3)
-      multiply_rows<width, 3, Start::zero>(A, i, panel, Y);
+      multiply_rows<numbers, width, 3, Start::zero>(A, i, panel, Y);
     else if (alike == 2)
-      multiply_rows<width, 2, Start::zero>(A, i, panel, Y);
+      multiply_rows<numbers, width, 2, Start::zero>(A, i, panel, Y);
     else
-      multiply_rows<width, 1, Start::zero>(A, i, panel, Y);
+      multiply_rows<numbers, width, 1, Start::zero>(A, i, panel, Y);
     i += alike;
   }
+}
+
+/// Y <- Y + A panel in some rows.
+template <int numbers, PetscInt width>
+[[gnu::always_inline]] inline void add_panel(const Csr& A, const RowSpan& rows, const double* panel,
+                                             double* Y)
+{
+  for (PetscInt i = rows.first; i < rows.last; ++i)
+    multiply_rows<numbers, width, 1, Start::there>(A, i, panel, Y);
 }
 
 /// Rows at which a square matrix may be cut: no entry joins those before with the others.
@@ -102,32 +116,28 @@ std::vector<char> free_cuts(const Csr& A, PetscInt n)
 
 }  // namespace
 
-CHLADNI_FITTING_INSTRUCTIONS
 void multiply_narrow(const Csr& A, const char* n_alike, const RowSpan& rows, const double* panel,
                      double* Y)
 {
-  multiply_panel<narrow_panel>(A, n_alike, rows, panel, Y);
+  on_widest_lanes(
+      [=]<int numbers>() { multiply_panel<numbers, narrow_panel>(A, n_alike, rows, panel, Y); });
 }
 
-CHLADNI_FITTING_INSTRUCTIONS
 void multiply_wide(const Csr& A, const char* n_alike, const RowSpan& rows, const double* panel,
                    double* Y)
 {
-  multiply_panel<wide_panel>(A, n_alike, rows, panel, Y);
+  on_widest_lanes(
+      [=]<int numbers>() { multiply_panel<numbers, wide_panel>(A, n_alike, rows, panel, Y); });
 }
 
-CHLADNI_FITTING_INSTRUCTIONS
 void add_narrow(const Csr& A, const RowSpan& rows, const double* panel, double* Y)
 {
-  for (PetscInt i = rows.first; i < rows.last; ++i)
-    multiply_rows<narrow_panel, 1, Start::there>(A, i, panel, Y);
+  on_widest_lanes([=]<int numbers>() { add_panel<numbers, narrow_panel>(A, rows, panel, Y); });
 }
 
-CHLADNI_FITTING_INSTRUCTIONS
 void add_wide(const Csr& A, const RowSpan& rows, const double* panel, double* Y)
 {
-  for (PetscInt i = rows.first; i < rows.last; ++i)
-    multiply_rows<wide_panel, 1, Start::there>(A, i, panel, Y);
+  on_widest_lanes([=]<int numbers>() { add_panel<numbers, wide_panel>(A, rows, panel, Y); });
 }
 
 std::vector<PetscInt> cuts(const Csr& A, PetscInt n)

@@ -1,41 +1,38 @@
 #include "linear/kernels/panel_columns.hpp"
 
 #include <algorithm>
+#include <utility>
 
-#include "common/fitting_instructions.hpp"
-#include "linear/kernels/lines.hpp"
+#include "linear/kernels/lanes.hpp"
 
 namespace chladni::linear {
 
 namespace {
 
-constexpr PetscInt line = line_numbers;
+constexpr int line = 8;             // numbers in a cache line
 constexpr std::size_t ahead = 64;  // numbers: what to ask the memory for; eight columns are many
 
-struct Lines {
-  Line at[line];  // NOLINT(modernize-avoid-c-arrays): its elements are not passed by value
-};
-
-/// Eight times eight numbers: pairs, then squares of two, then of four change places.
-[[gnu::always_inline]] inline void transpose(Lines& lines)
+/// Numbers of a lane change places with those of another, a power of two before or behind.
+template <int distance, int... k>
+[[gnu::always_inline]] inline void exchange(Lane<sizeof...(k)>& a, Lane<sizeof...(k)>& b,
+                                            std::integer_sequence<int, k...> /*places*/)
 {
-  Line(&x)[line] = lines.at;
-  Line y[line];  // NOLINT(modernize-avoid-c-arrays)
-  for (int i = 0; i < line; i += 2) {
-    y[i] = __builtin_shufflevector(x[i], x[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
-    y[i + 1] = __builtin_shufflevector(x[i], x[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
-  }
-  for (int i = 0; i < line; i += 4) {
-    for (int j = i; j < i + 2; ++j) {
-      x[j] = __builtin_shufflevector(y[j], y[j + 2], 0, 1, 8, 9, 4, 5, 12, 13);
-      x[j + 2] = __builtin_shufflevector(y[j], y[j + 2], 2, 3, 10, 11, 6, 7, 14, 15);
-    }
-  }
-  for (int i = 0; i < 4; ++i) {
-    y[i] = __builtin_shufflevector(x[i], x[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
-    y[i + 4] = __builtin_shufflevector(x[i], x[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
-  }
-  for (int i = 0; i < line; ++i) x[i] = y[i];
+  constexpr int n = sizeof...(k);
+  const auto first = a.values;
+  a.values = __builtin_shufflevector(first, b.values,
+                                     (k & distance ? n + k - distance : k)...);
+  b.values = __builtin_shufflevector(first, b.values, (k & distance ? n + k : k + distance)...);
+}
+
+/// As many lanes as numbers in each: neighbours change places, then pairs, then fours.
+template <int numbers, int distance = 1>
+[[gnu::always_inline]] inline void transpose(Lane<numbers>* x)
+{
+#pragma GCC unroll 8
+  for (int i = 0; i < numbers; ++i)
+    if ((i & distance) == 0)
+      exchange<distance>(x[i], x[i + distance], std::make_integer_sequence<int, numbers>());
+  if constexpr (2 * distance < numbers) transpose<numbers, 2 * distance>(x);
 }
 
 /// Where row i is in the columns and in the panel.
@@ -60,20 +57,26 @@ struct Lines {
 }
 
 /// Eight columns, or fewer.
-CHLADNI_FITTING_INSTRUCTIONS
-void line_to_panel(const double* const* columns, PetscInt n_columns, const PanelRows& rows,
-                   PetscInt width, double* panel)
+template <int numbers>
+[[gnu::always_inline]] inline void line_to_panel(const double* const* columns, PetscInt n_columns,
+                                                 const PanelRows& rows, PetscInt width,
+                                                 double* panel)
 {
   for (PetscInt i = 0; i < rows.n;) {
     if (n_columns == line && are_in_line(rows, i)) {
-      Lines x;
-      for (int c = 0; c < line; ++c) {
-        const double* from = columns[c] + row_of(rows, i);
-        __builtin_prefetch(from + ahead);
-        load(from, x.at[c]);
+      const std::size_t row = row_of(rows, i);
+      for (int c = 0; c < line; ++c) __builtin_prefetch(columns[c] + row + ahead);
+      for (int k = 0; k < line; k += numbers) {
+        for (int c = 0; c < line; c += numbers) {
+          Lane<numbers> x[numbers];  // NOLINT(modernize-avoid-c-arrays): registers
+#pragma GCC unroll 8
+          for (int l = 0; l < numbers; ++l) load(columns[c + l] + row + k, x[l]);
+          transpose(x);
+#pragma GCC unroll 8
+          for (int l = 0; l < numbers; ++l)
+            store(x[l], panel + slot_of(rows, i + k + l) * width + c);
+        }
       }
-      transpose(x);
-      for (int k = 0; k < line; ++k) store(x.at[k], panel + slot_of(rows, i + k) * width);
       i += line;
     } else {
       double* to = panel + slot_of(rows, i) * width;
@@ -84,19 +87,25 @@ void line_to_panel(const double* const* columns, PetscInt n_columns, const Panel
   }
 }
 
-CHLADNI_FITTING_INSTRUCTIONS
-void line_to_columns(const double* panel, PetscInt width, const PanelRows& rows,
-                     double* const* columns, PetscInt n_columns)
+template <int numbers>
+[[gnu::always_inline]] inline void line_to_columns(const double* panel, PetscInt width,
+                                                   const PanelRows& rows, double* const* columns,
+                                                   PetscInt n_columns)
 {
   for (PetscInt i = 0; i < rows.n;) {
     if (n_columns == line && are_in_line(rows, i)) {
-      Lines x;
-      for (int k = 0; k < line; ++k) load(panel + slot_of(rows, i + k) * width, x.at[k]);
-      transpose(x);
-      for (int c = 0; c < line; ++c) {
-        double* to = columns[c] + row_of(rows, i);
-        __builtin_prefetch(to + ahead, 1);
-        store(x.at[c], to);
+      const std::size_t row = row_of(rows, i);
+      for (int c = 0; c < line; ++c) __builtin_prefetch(columns[c] + row + ahead, 1);
+      for (int k = 0; k < line; k += numbers) {
+        for (int c = 0; c < line; c += numbers) {
+          Lane<numbers> x[numbers];  // NOLINT(modernize-avoid-c-arrays): registers
+#pragma GCC unroll 8
+          for (int l = 0; l < numbers; ++l)
+            load(panel + slot_of(rows, i + k + l) * width + c, x[l]);
+          transpose(x);
+#pragma GCC unroll 8
+          for (int l = 0; l < numbers; ++l) store(x[l], columns[c + l] + row + k);
+        }
       }
       i += line;
     } else {
@@ -115,7 +124,9 @@ void to_panel(std::span<const double* const> columns, const PanelRows& rows, Pet
   const auto n = static_cast<PetscInt>(columns.size());
   for (PetscInt first = 0; first < width; first += line) {
     const PetscInt n_here = std::clamp<PetscInt>(n - first, 0, line);
-    line_to_panel(columns.data() + std::min(first, n), n_here, rows, width, panel + first);
+    const double* const* some = columns.data() + std::min(first, n);
+    on_widest_lanes(
+        [=]<int numbers>() { line_to_panel<numbers>(some, n_here, rows, width, panel + first); });
   }
 }
 
@@ -124,8 +135,10 @@ void to_columns(const double* panel, PetscInt width, const PanelRows& rows,
 {
   const auto n = static_cast<PetscInt>(columns.size());
   for (PetscInt first = 0; first < n; first += line) {
-    const PetscInt n_here = std::min(n - first, line);
-    line_to_columns(panel + first, width, rows, columns.data() + first, n_here);
+    const PetscInt n_here = std::min<PetscInt>(n - first, line);
+    double* const* some = columns.data() + first;
+    on_widest_lanes(
+        [=]<int numbers>() { line_to_columns<numbers>(panel + first, width, rows, some, n_here); });
   }
 }
 
