@@ -7,12 +7,14 @@
 #include <cassert>
 #include <deque>
 #include <numeric>
+#include <utility>
 
 #include "common/all_ranks.hpp"
 #include "common/index_sets.hpp"
 #include "common/petsc_attached.hpp"
 #include "linear/cholesky/shared_dissection.hpp"
 #include "linear/kernels/adjacency.hpp"
+#include "linear/kernels/fingerprint.hpp"
 #include "linear/kernels/gather.hpp"
 
 namespace chladni::linear {
@@ -61,6 +63,14 @@ OwnBlocks own_blocks(Mat A, IS rows)
   return own;
 }
 
+/// The first of the numbers of this rank, where the ranks count one after the other.
+int first_number(int n_own, MPI_Comm comm)
+{
+  int first = 0;
+  MPI_Exscan(&n_own, &first, 1, MPI_INT, MPI_SUM, comm);
+  return petsc::rank(comm) == 0 ? 0 : first;
+}
+
 constexpr int left_out = -1;
 
 /// Number of the block of each row of A, or `left_out`, on all ranks.
@@ -70,10 +80,7 @@ std::vector<int> block_of_rows(Mat A, const OwnBlocks& own)
   PetscInt begin = 0, end = 0, n = 0;
   petsc::check(MatGetOwnershipRange(A, &begin, &end));
   petsc::check(MatGetSize(A, &n, nullptr));
-  const int n_own = own.n_blocks();
-  int first = 0;
-  MPI_Exscan(&n_own, &first, 1, MPI_INT, MPI_SUM, comm);
-  if (petsc::rank(comm) == 0) first = 0;
+  const int first = first_number(own.n_blocks(), comm);
   std::vector<int> here(std::size_t(end - begin), left_out);
   for (std::size_t i = 0; i < own.rows.size(); ++i)
     here[own.rows[i] - begin] = first + own.block[i];
@@ -110,6 +117,51 @@ BlockGraph own_graph(Mat A, const OwnBlocks& own, const std::vector<int>& block_
     petsc::check(MatRestoreRow(A, own.rows[i], &n, &columns, nullptr));
   }
   return graph;
+}
+
+/// Blocks of this rank with the same neighbours, each counted among its own, become one: they are
+/// eliminated together in any case. Of a mesh of cubic shells three of five are left out.
+/// METIS_NodeND does that by itself, but the graph that ranks send each other is a fifth then.
+/// @param graph     of the blocks of this rank; afterwards of those that are left
+/// @param block_of  [rows of A] numbers of the blocks, which become those of the ones left
+void merge_alike(BlockGraph& graph, std::vector<int>& block_of, MPI_Comm comm)
+{
+  const auto n_own = static_cast<int>(graph.degrees.size());
+  const int first = first_number(n_own, comm);
+  ByFingerprint<int> known;
+  std::vector<int> merged;  // the new number of each
+  auto next = graph.neighbours.cbegin();
+  for (int b = 0; b < n_own; ++b) {
+    Fingerprint neighbours;
+    neighbours.add(std::uint64_t(first + b));
+    for (int k = 0; k < graph.degrees[b]; ++k) neighbours.add(std::uint64_t(*next++));
+    merged.push_back(known.try_emplace(neighbours, std::ssize(known)).first->second);
+  }
+  const int first_merged = first_number(static_cast<int>(known.size()), comm);
+  for (int& number : merged) number += first_merged;
+  const std::vector<int> new_number = gather_on_all(merged, MPI_INT, comm);
+  for (int& block : block_of)
+    if (block != left_out) block = new_number[block];
+
+  BlockGraph left;
+  std::vector<int> seen_by(new_number.size(), left_out);
+  next = graph.neighbours.cbegin();
+  for (int b = 0; b < n_own; ++b) {
+    const auto last = next + graph.degrees[b];
+    const int self = merged[b];
+    const bool is_first = std::cmp_equal(self - first_merged, left.degrees.size());
+    if (is_first) {
+      const std::size_t before = left.neighbours.size();
+      seen_by[self] = self;
+      for (; next != last; ++next) {
+        const int other = new_number[*next];
+        if (std::exchange(seen_by[other], self) != self) left.neighbours.push_back(other);
+      }
+      left.degrees.push_back(static_cast<int>(left.neighbours.size() - before));
+    }
+    next = last;
+  }
+  graph = std::move(left);
 }
 
 /// Blocks with ten times as many neighbours as the mean (harmonics of a ring) come last, in tenths.
@@ -234,21 +286,21 @@ std::vector<int> elimination_order(Mat A, IS rows)
 {
   const MPI_Comm comm = petsc::communicator(A);
   const OwnBlocks blocks = own_blocks(A, rows);
-  const std::vector<int> block_of = block_of_rows(A, blocks);
+  std::vector<int> block_of = block_of_rows(A, blocks);
   BlockGraph own = own_graph(A, blocks, block_of);
-  const std::vector<int> own_degrees = std::move(own.degrees);
-  const std::vector<int> degrees = gather_on_all(own_degrees, MPI_INT, comm);
-  if (is_dissected_together(degrees, comm)) {
+  if (is_dissected_together(gather_on_all(own.degrees, MPI_INT, comm), comm)) {
+    merge_alike(own, block_of, comm);
     const Adjacency graph =
-        joined({.starts = offsets(own_degrees), .neighbours = std::move(own.neighbours)}, comm);
-    const std::vector<int> sizes = block_sizes<int>(block_of, degrees.size());
+        joined({.starts = offsets(own.degrees), .neighbours = std::move(own.neighbours)}, comm);
+    const std::vector<int> sizes = block_sizes<int>(block_of, graph.n_vertices());
     const std::vector<int> place = shared_dissection(graph, sizes, comm);
     return on_all_ranks(comm, [&]() -> std::vector<int> {
       if (petsc::rank(comm) != 0) return {};
-      if (place.empty()) refuse(std::ssize(degrees), std::ssize(graph.neighbours));
+      if (place.empty()) refuse(graph.n_vertices(), std::ssize(graph.neighbours));
       return row_places(place, block_of, sizes);
     });
   }
+  const std::vector<int> degrees = gather(std::move(own.degrees), MPI_INT, comm);
   std::vector<int> neighbours = gather(std::move(own.neighbours), MPI_INT, comm);
   return on_all_ranks(comm, [&]() -> std::vector<int> {
     if (petsc::rank(comm) != 0) return {};

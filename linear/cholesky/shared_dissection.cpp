@@ -16,6 +16,9 @@ constexpr int no_part = -1;
 /// twentieth less work, but ranks then wait for the one with the largest part.
 constexpr idx_t uneven = 30;
 
+/// Separators of which METIS takes the best; as many as it tries where it merges vertices itself.
+constexpr idx_t separators_tried = 2;
+
 /// Some vertices of a graph, and the first of their places.
 struct Part {
   std::vector<int> vertices;
@@ -106,6 +109,7 @@ class SharedDissection {
         std::array<idx_t, METIS_NOPTIONS> options{};
         METIS_SetDefaultOptions(options.data());
         options[METIS_OPTION_UFACTOR] = uneven;
+        options[METIS_OPTION_NSEPS] = separators_tried;
         const int status = METIS_ComputeVertexSeparator(
             &n, graph.starts.data(), graph.neighbours.data(), graph.weights.data(), options.data(),
             &weight_of_separator, side.data());
@@ -123,8 +127,12 @@ class SharedDissection {
     if (graph.neighbours.empty()) return number(part);  // METIS rejects it
     idx_t n = graph.n_vertices();
     std::vector<idx_t> order(graph.weights.size()), place(graph.weights.size());
-    const int status = METIS_NodeND(&n, graph.starts.data(), graph.neighbours.data(),
-                                    graph.weights.data(), nullptr, order.data(), place.data());
+    std::array<idx_t, METIS_NOPTIONS> options{};
+    METIS_SetDefaultOptions(options.data());
+    options[METIS_OPTION_NSEPS] = separators_tried;
+    const int status =
+        METIS_NodeND(&n, graph.starts.data(), graph.neighbours.data(), graph.weights.data(),
+                     options.data(), order.data(), place.data());
     has_failed_ = has_failed_ || status != METIS_OK;
     for (std::size_t i = 0; i < place.size(); ++i)
       places_[std::size_t(part.vertices[i])] = part.first_place + static_cast<int>(place[i]);

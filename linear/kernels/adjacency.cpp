@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <numeric>
 #include <span>
 #include <utility>
 
 #include "common/checked_count.hpp"
 #include "common/petsc.hpp"
+#include "linear/kernels/fingerprint.hpp"
 #include "linear/kernels/gather.hpp"
 
 namespace chladni::linear {

@@ -2,7 +2,6 @@
 
 #include <mpi.h>
 
-#include <cstdint>
 #include <vector>
 
 namespace chladni::linear {
@@ -25,14 +24,6 @@ Adjacency symmetrized(Adjacency graph);
 /// @param part  the vertices of this rank; their neighbours are numbered over all ranks
 /// @note   Collective.
 Adjacency joined(Adjacency part, MPI_Comm comm);
-
-/// A number whose bits all depend on all bits of z (the finaliser of splitmix64).
-inline std::uint64_t mixed(std::uint64_t z)
-{
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-  return z ^ (z >> 31);
-}
 
 /// True if each edge exists in both directions.
 bool is_symmetric(const Adjacency& graph);

@@ -55,16 +55,21 @@ template <typename Work>
   work.template operator()<2>();
 }
 
-/// Calls work.operator()<numbers>(), compiled for the processor at hand with that many numbers in
-/// its widest lane. Debian's baseline has two.
+/// Numbers in the widest lane of the processor at hand: 8, 4, or the 2 of Debian's baseline.
+int numbers_in_lane();
+
+/// Lets narrower lanes be taken, to try what other processors do.
+/// @return those that are taken from now on
+int limit_lanes(int most);
+
+/// Calls work.operator()<numbers>(), compiled for the processor at hand, with that many numbers in
+/// its widest lane.
 template <typename Work>
 void on_widest_lanes(const Work& work)
 {
 #ifdef __x86_64__
-  static const bool has_512 = __builtin_cpu_supports("avx512f");
-  static const bool has_256 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (has_512) return on_lanes_of_8(work);
-  if (has_256) return on_lanes_of_4(work);
+  if (numbers_in_lane() == 8) return on_lanes_of_8(work);
+  if (numbers_in_lane() == 4) return on_lanes_of_4(work);
 #endif
   on_lanes_of_2(work);
 }

@@ -67,11 +67,12 @@ System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs,
       add_symmetric(H, point.loss_factor * point.K, motion, dofs, places);
     if (point.M.size() > 0) add_symmetric(M, point.M, motion, dofs, places);
   }
-  return {.K = K.to_matrix(comm, round_off),
-          .M = M.to_matrix(comm, round_off),
-          .C = damping_matrix(points, dofs, comm),
-          .H = is_lossy ? H.to_matrix(comm, round_off) : petsc::Matrix(),
-          .dofs = std::move(dofs)};
+  return {
+      .K = K.to_symmetric_matrix(comm, round_off, Rows::alike),
+      .M = M.to_symmetric_matrix(comm, round_off, Rows::as_they_are),
+      .C = damping_matrix(points, dofs, comm),
+      .H = is_lossy ? H.to_symmetric_matrix(comm, round_off, Rows::as_they_are) : petsc::Matrix(),
+      .dofs = std::move(dofs)};
 }
 
 System assemble(const mesh::Mesh& mesh, std::span<const ShellSection> sections, DofMap dofs,

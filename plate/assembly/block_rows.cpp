@@ -165,16 +165,23 @@ void BlockRows::add(const Eigen::MatrixXd& A_e, std::span<const std::ptrdiff_t> 
   }
 }
 
-petsc::Matrix BlockRows::to_matrix(MPI_Comm comm, double negligible)
+petsc::Matrix BlockRows::to_matrix(MPI_Comm comm)
+{
+  return to_symmetric_matrix(comm, 0.0, Rows::as_they_are);
+}
+
+petsc::Matrix BlockRows::to_symmetric_matrix(MPI_Comm comm, double negligible, Rows rows)
 {
   widen(0);  // a matrix without elements has its diagonal, too
   const HeldBlocks blocks{pattern_, held_, offset_};
-  std::optional<EntryScales> scales;
+  std::optional<NodeValues> scales;
   if (negligible > 0.0) scales.emplace(pattern_, diagonal_scales(blocks, values_), comm);
   const Sieve sieve{.negligible = negligible, .scales = scales ? &*scales : nullptr};
-  SplitRows rows =
-      on_all_ranks(comm, [&] { return split_rows(blocks, std::move(values_), sieve); });
-  petsc::Matrix A = matrix_of(std::move(rows), pattern_.n * pattern_.n_rows(), comm);
+  std::vector<BlockEntries> entries = sifted(blocks, sieve, values_);
+  if (rows == Rows::alike) make_rows_alike(pattern_, entries, comm);
+  SplitRows split =
+      on_all_ranks(comm, [&] { return split_rows(blocks, std::move(values_), entries); });
+  petsc::Matrix A = matrix_of(std::move(split), pattern_.n * pattern_.n_rows(), comm);
   petsc::check(MatSetBlockSize(A, pattern_.n));
   petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
   petsc::check(MatSetOption(A, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));

@@ -34,6 +34,9 @@ BlockPattern block_pattern(int n, PetscInt first, std::vector<std::vector<PetscI
 std::vector<std::ptrdiff_t> block_places(const BlockPattern& pattern,
                                          std::span<const PetscInt> nodes);
 
+/// Whether the rows of a node need the same columns.
+enum class Rows { as_they_are, alike };
+
 /// Sums element matrices over a pattern. Each entry is summed in the order of the calls, on
 /// whatever rank its row is. Only those components of a block are stored that some element has,
 /// except in blocks of full nodes. For plane shells this is half of K and a sixth of M; first-time
@@ -48,10 +51,13 @@ class BlockRows {
   void add(const Eigen::MatrixXd& A_e, std::span<const std::ptrdiff_t> places);
 
   /// The matrix of block size n, without zeros off the diagonal. This object is empty afterwards.
-  /// @param negligible  entries with |A_ij| <= negligible sqrt |A_ii A_jj| are round-off and
-  ///                    dropped, on both sides of the diagonal if the sums are symmetric
   /// @note   Collective on `comm`.
-  petsc::Matrix to_matrix(MPI_Comm comm, double negligible = 0.0);
+  petsc::Matrix to_matrix(MPI_Comm comm);
+  /// The same of a symmetric matrix.
+  /// @param negligible  entries with |A_ij| <= negligible sqrt |A_ii A_jj| are round-off and
+  /// dropped
+  /// @param rows        alike: with zeros where `make_rows_alike` adds an entry
+  petsc::Matrix to_symmetric_matrix(MPI_Comm comm, double negligible, Rows rows);
 
  private:
   bool holds_all(std::ptrdiff_t block) const

@@ -24,8 +24,8 @@ class HeldColumns {
   }
 
   /// Calls visit(j, value) for the entries that row i of a block holds.
-  template <typename Visit>
-  void for_row(std::span<const double> block, int i, const Visit& visit) const
+  template <typename Number, typename Visit>
+  void for_row(std::span<Number> block, int i, const Visit& visit) const
   {
     if (std::ssize(block) == std::ptrdiff_t(n_) * n_) {
       for (int j = 0; j < n_; ++j) visit(j, block[i * n_ + j]);
@@ -42,8 +42,9 @@ class HeldColumns {
 
 class RowSplitter {
  public:
-  RowSplitter(const HeldBlocks& blocks, const Sieve& sieve, std::vector<double> values)
-      : blocks_(blocks), held_(blocks), sieve_(sieve)
+  RowSplitter(const HeldBlocks& blocks, const std::vector<BlockEntries>& entries,
+              std::vector<double> values)
+      : blocks_(blocks), held_(blocks), entries_(entries)
   {
     rows_.column = std::make_unique_for_overwrite<PetscInt[]>(values.size());
     rows_.value = std::move(values);
@@ -88,26 +89,22 @@ class RowSplitter {
   {
     const BlockPattern& pattern = blocks_.pattern;
     const std::ptrdiff_t begin = pattern.start[node], end = pattern.start[node + 1];
-    const double row_scale = sieve_.of(pattern.first + node)[i];
     for (std::ptrdiff_t k = begin; k < end; ++k) {
       const std::span<const double> block(
           of_node_.data() + blocks_.offset[k] - blocks_.offset[begin],
           static_cast<std::size_t>(blocks_.offset[k + 1] - blocks_.offset[k]));
       const PetscInt column_node = pattern.column[k], own_node = column_node - pattern.first;
-      const double* column_scales = sieve_.of(column_node);
-      const auto counts = [&](int j, double value) {
-        return sieve_.counts(value, row_scale, column_scales[j]);
-      };
+      const BlockEntries of_row = entries_[std::size_t(k)] >> (pattern.n * i);
       if (own_node >= 0 && own_node < pattern.n_rows()) {
         held_.for_row(block, i, [&](int j, double value) {  // the next overwrites what is none
           rows_.column[count_] = pattern.n * own_node + j;
           rows_.value[static_cast<std::size_t>(count_)] = value;
-          count_ += static_cast<std::ptrdiff_t>((own_node == node && i == j) || counts(j, value));
+          count_ += static_cast<std::ptrdiff_t>(of_row >> j & 1);
         });
         continue;
       }
       held_.for_row(block, i, [&](int j, double value) {
-        if (!counts(j, value)) return;
+        if ((of_row >> j & 1) == 0) return;
         rows_.other_column.push_back(pattern.n * column_node + j);
         rows_.other_value.push_back(value);
       });
@@ -116,7 +113,7 @@ class RowSplitter {
 
   const HeldBlocks& blocks_;
   HeldColumns held_;
-  const Sieve& sieve_;
+  const std::vector<BlockEntries>& entries_;
   SplitRows rows_;
   std::ptrdiff_t count_ = 0;
   std::vector<double> of_node_;  ///< the sums of the node at hand, whose place its rows take
@@ -152,9 +149,40 @@ std::vector<double> diagonal_scales(const HeldBlocks& blocks, const std::vector<
   return scales;
 }
 
-SplitRows split_rows(const HeldBlocks& blocks, std::vector<double> values, const Sieve& sieve)
+std::vector<BlockEntries> sifted(const HeldBlocks& blocks, const Sieve& sieve,
+                                 std::vector<double>& values)
 {
-  return RowSplitter(blocks, sieve, std::move(values)).rows();
+  const BlockPattern& pattern = blocks.pattern;
+  const int n = pattern.n;
+  const HeldColumns held(blocks);
+  std::vector<BlockEntries> entries(pattern.column.size(), 0);
+  for (PetscInt node = 0; node < pattern.n_rows(); ++node) {
+    const double* row_scales = sieve.of(pattern.first + node);
+    for (std::ptrdiff_t k = pattern.start[node]; k < pattern.start[node + 1]; ++k) {
+      const std::span<double> block(
+          values.data() + blocks.offset[k],
+          static_cast<std::size_t>(blocks.offset[k + 1] - blocks.offset[k]));
+      const double* column_scales = sieve.of(pattern.column[k]);
+      BlockEntries& of_block = entries[std::size_t(k)];
+      for (int i = 0; i < n; ++i) {
+        held.for_row(block, i, [&](int j, double& value) {
+          if (sieve.counts(value, row_scales[i], column_scales[j]))
+            of_block |= BlockEntries{1} << (n * i + j);
+          else
+            value = 0.0;
+        });
+      }
+      if (pattern.column[k] == pattern.first + node)
+        for (int i = 0; i < n; ++i) of_block |= BlockEntries{1} << (n * i + i);
+    }
+  }
+  return entries;
+}
+
+SplitRows split_rows(const HeldBlocks& blocks, std::vector<double> values,
+                     const std::vector<BlockEntries>& entries)
+{
+  return RowSplitter(blocks, entries, std::move(values)).rows();
 }
 
 }  // namespace chladni::plate

@@ -5,8 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "plate/assembly/alike_rows.hpp"
 #include "plate/assembly/block_rows.hpp"
-#include "plate/assembly/entry_scales.hpp"
+#include "plate/assembly/node_values.hpp"
 
 namespace chladni::plate {
 
@@ -30,10 +31,13 @@ struct HeldBlocks {
 /// sqrt |A_ii| of the rows of this rank.
 std::vector<double> diagonal_scales(const HeldBlocks& blocks, const std::vector<double>& values);
 
-/// Decides which values are entries: those above `negligible` times the scale of their place.
+/// Decides which values are entries: those above `negligible` times the scale sqrt |A_ii A_jj| of
+/// their place. No entry of a positive semidefinite matrix is larger, and the errors of a Cholesky
+/// factorisation are a few eps of it.
+/// Source: Higham, Accuracy and Stability of Numerical Algorithms (2002), theorem 10.3.
 struct Sieve {
   double negligible;
-  const EntryScales* scales;  ///< null: all but zeros are entries
+  const NodeValues* scales;  ///< sqrt |A_ii|; null: all but zeros are entries
 
   /// [n] sqrt |A_ii| of the DOFs of a node; zeros without scales.
   const double* of(PetscInt node) const
@@ -48,10 +52,17 @@ struct Sieve {
   }
 };
 
-/// Turns the sums over a pattern into rows of scalars and drops what the sieve holds back off the
-/// diagonal. The values stay in the memory of the sums, since the rows of a node are never longer
-/// than its blocks.
+/// Which values of each block are entries: what the sieve lets pass, and the diagonal. The others
+/// become zero.
+/// @return [n_blocks]
+std::vector<BlockEntries> sifted(const HeldBlocks& blocks, const Sieve& sieve,
+                                 std::vector<double>& values);
+
+/// Turns the sums over a pattern into rows of scalars. The values stay in the memory of the sums,
+/// since the rows of a node are never longer than its blocks.
+/// @param entries  [n_blocks] of each block; where a partly stored one has no value, there is none
 /// @throws chladni::Error when there are more entries than a PetscInt counts.
-SplitRows split_rows(const HeldBlocks& blocks, std::vector<double> values, const Sieve& sieve);
+SplitRows split_rows(const HeldBlocks& blocks, std::vector<double> values,
+                     const std::vector<BlockEntries>& entries);
 
 }  // namespace chladni::plate

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "common/petsc.hpp"
 #include "linear/cholesky/elimination_order.hpp"
@@ -84,6 +85,32 @@ TEST(SharedDissection, FillsTheFactorAsTheDissectionOfOneRankDoes)
   alone.analyze(same);
   EXPECT_LT(factor.size().operations, 1.15 * alone.size().operations);
   EXPECT_LT(factor.size().entries, 1.1 * alone.size().entries);
+}
+
+/// Two rows for each vertex, those of two neighbouring vertices in turn.
+TEST(EliminationOrder, KeepsRowsWithTheSameColumnsTogether)
+{
+  constexpr int side = 72, most_entries = 18;
+  const Adjacency graph = grid(side);
+  const auto row_of = [](int vertex, int copy) { return vertex / 2 * 4 + copy * 2 + vertex % 2; };
+  const petsc::Matrix A = testing::matrix(2 * graph.n_vertices(), most_entries, [&](PetscInt row) {
+    const PetscInt v = row / 4 * 2 + row % 2;
+    testing::Row entries{{row, most_entries}, {row_of(v, row % 4 < 2 ? 1 : 0), -1.0}};
+    for (int k = graph.starts[v]; k < graph.starts[v + 1]; ++k)
+      for (int copy = 0; copy < 2; ++copy)
+        entries.push_back({row_of(graph.neighbours[k], copy), -1.0});
+    return entries;
+  });
+  const std::vector<int> places = elimination_order(A);
+  if (petsc::rank(PETSC_COMM_WORLD) != 0) return;
+  ASSERT_EQ(places.size(), 2 * graph.n_vertices());
+  std::vector<int> sorted = places;
+  std::ranges::sort(sorted);
+  for (int i = 0; i < std::ssize(sorted); ++i) ASSERT_EQ(sorted[i], i + 1);
+  int n_apart = 0;
+  for (int v = 0; v < graph.n_vertices(); ++v)
+    n_apart += std::abs(places[row_of(v, 0)] - places[row_of(v, 1)]) != 1;
+  EXPECT_LE(n_apart, 4 * petsc::size(PETSC_COMM_WORLD));  // where a rank's rows end
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/eigen_every.hpp"
+#include "linear/kernels/lanes.hpp"
 #include "linear/kernels/panel_columns.hpp"
 #include "linear/kernels/scratch.hpp"
 #include "matrices.hpp"
@@ -59,7 +60,23 @@ petsc::Matrix on_ranks(Mat A, const MatrixXd& X)
   return dense;
 }
 
-TEST(SparseProduct, IsRightForColumnsOfDifferentParts)
+/// Instructions of this processor and of lesser ones.
+class InLanes : public ::testing::TestWithParam<int> {
+ protected:
+  void SetUp() override
+  {
+    if (limit_lanes(GetParam()) != GetParam()) GTEST_SKIP() << "not on this processor";
+  }
+  void TearDown() override { limit_lanes(most); }
+
+ private:
+  static constexpr int most = 64;
+};
+
+INSTANTIATE_TEST_SUITE_P(Numbers, InLanes, ::testing::Values(2, 4, 8),
+                         ::testing::PrintToStringParamName());
+
+TEST_P(InLanes, AProductIsRightForColumnsOfDifferentParts)
 {
   constexpr PetscInt n = 180;
   const petsc::Matrix A = halves(n);
@@ -122,7 +139,7 @@ TEST(LargeDense, IsZero)
   }
 }
 
-TEST(PanelColumns, ComeBackFromAPanel)
+TEST_P(InLanes, ColumnsComeBackFromAPanel)
 {
   constexpr int n = 43;
   std::vector<int> rows, slots(n);

@@ -231,6 +231,36 @@ TEST(ShareSubtrees, GivesEachRankLessTheMoreTheyAre)
   }
 }
 
+TEST(AssemblyTree, HasTheRowsBelowWhatARankSeesAlone)
+{
+  const Grid plate = grid(40, 3);
+  const AssemblyTree whole = assembly_tree(plate.graph, plate.places);
+  constexpr int n_ranks = 5;
+  std::size_t n_rows = 0;
+  for (int rank = 0; rank < n_ranks; ++rank) {
+    std::vector<RankGroup> group;
+    const AssemblyTree tree =
+        assembly_tree(plate.graph, plate.places, [&](const AssemblyTree& known) {
+          group = share_subtrees(known, n_ranks);
+          return seen_by(rank, known, group);
+        });
+    EXPECT_EQ(group, share_subtrees(whole, n_ranks));
+    ASSERT_EQ(tree.parent, whole.parent);
+    EXPECT_EQ(tree.n_below, whole.n_below);
+    for (int s = 0; s < tree.n_supernodes(); ++s) {
+      const bool is_eliminated = group[s].has(rank);
+      for (const int related : {s, tree.parent[s]}) {
+        if (!is_eliminated || related == -1) continue;
+        EXPECT_TRUE(std::ranges::equal(tree.below(related), whole.below(related))) << s;
+      }
+      EXPECT_TRUE(tree.below(s).empty() || std::ssize(tree.below(s)) == tree.n_below[s]);
+    }
+    n_rows += tree.below_rows.size();
+    EXPECT_LT(tree.below_rows.size(), whole.below_rows.size());
+  }
+  EXPECT_LT(double(n_rows), 1.8 * double(whole.below_rows.size()));
+}
+
 /// Two of one grid that are not coupled.
 QuotientGraph twice(const QuotientGraph& one)
 {

@@ -166,17 +166,18 @@ struct RowsOfVertices {
 
 double AssemblyTree::n_entries(int s) const
 {
-  return trapezoid(n_columns(s), double(below(s).size()));
+  return trapezoid(n_columns(s), n_below[s]);
 }
 
 double AssemblyTree::n_operations(int s) const
 {
   const double w = n_columns(s);
-  const auto m = double(below(s).size());
+  const double m = n_below[s];
   return w * w * w / 3.0 + w * w * m + w * m * m;
 }
 
-AssemblyTree assembly_tree(const QuotientGraph& graph, const std::vector<int>& places)
+AssemblyTree assembly_tree(const QuotientGraph& graph, const std::vector<int>& places,
+                           const WhatMatters& matters)
 {
   const Amalgamation supernodes(graph,
                                 fundamental_supernodes(graph, order_of_vertices(graph, places)));
@@ -185,6 +186,7 @@ AssemblyTree assembly_tree(const QuotientGraph& graph, const std::vector<int>& p
                     .row = {},
                     .first_column = {0},
                     .parent = {},
+                    .n_below = {},
                     .below_starts = {0},
                     .below_rows = {}};
   tree.row.reserve(places.size());
@@ -202,19 +204,27 @@ AssemblyTree assembly_tree(const QuotientGraph& graph, const std::vector<int>& p
     });
     tree.first_column.push_back(static_cast<int>(tree.row.size()));
   });
-  double n_below = 0.0;
-  for (const int s : left) n_below += supernodes.n_rows_below(s);
-  tree.below_rows.reserve(std::size_t(n_below));
-  std::vector<int> firsts;  // of the vertices below one of them
   for (const int s : left) {
     const int parent = supernodes.parent(s);
     tree.parent.push_back(parent == -1 ? -1 : number[parent]);
-    firsts.clear();
-    supernodes.for_below(s, [&](int v) { firsts.push_back(first_position[v]); });
-    if (!std::ranges::is_sorted(firsts)) std::ranges::sort(firsts);
-    for (const int first : firsts) {
-      const int n = graph.n_rows[graph.vertex_of_row[tree.row[first]]];
-      for (int k = 0; k < n; ++k) tree.below_rows.push_back(first + k);
+    tree.n_below.push_back(static_cast<int>(supernodes.n_rows_below(s)));
+  }
+  const std::vector<char> does_matter =
+      matters ? matters(tree) : std::vector<char>(tree.n_below.size(), 1);
+  std::size_t n_all = 0;
+  for (std::size_t i = 0; i < does_matter.size(); ++i)
+    if (does_matter[i] != 0) n_all += std::size_t(tree.n_below[i]);
+  tree.below_rows.reserve(n_all);
+  std::vector<int> firsts;  // of the vertices below one of them
+  for (const int s : left) {
+    if (does_matter[number[s]] != 0) {
+      firsts.clear();
+      supernodes.for_below(s, [&](int v) { firsts.push_back(first_position[v]); });
+      if (!std::ranges::is_sorted(firsts)) std::ranges::sort(firsts);
+      for (const int first : firsts) {
+        const int n = graph.n_rows[graph.vertex_of_row[tree.row[first]]];
+        for (int k = 0; k < n; ++k) tree.below_rows.push_back(first + k);
+      }
     }
     tree.below_starts.push_back(tree.below_rows.size());
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -17,11 +18,13 @@ struct AssemblyTree {
   std::vector<int> row;           ///< [n] row at each place
   std::vector<int> first_column;  ///< [n_supernodes + 1] first place of each
   std::vector<int> parent;        ///< [n_supernodes]; -1 for a root
+  std::vector<int> n_below;       ///< [n_supernodes] rows below each
   std::vector<std::size_t> below_starts;  ///< [n_supernodes + 1]
-  std::vector<int> below_rows;            ///< places below each supernode, ascending
+  std::vector<int> below_rows;            ///< places below the supernodes that matter, ascending
 
   int n_supernodes() const { return static_cast<int>(parent.size()); }
   int n_columns(int s) const { return first_column[s + 1] - first_column[s]; }
+  /// [n_below] of a supernode that matters; nothing of the others.
   std::span<const int> below(int s) const
   {
     return std::span(below_rows).subspan(below_starts[s], below_starts[s + 1] - below_starts[s]);
@@ -32,8 +35,13 @@ struct AssemblyTree {
   double n_operations(int s) const;
 };
 
+/// Whether each supernode of a tree matters, of which all but the rows below them is known.
+using WhatMatters = std::function<std::vector<char>(const AssemblyTree& tree)>;
+
 /// Makes the tree of an elimination order.
-/// @param places  [n] wanted place of each row in the elimination; kept up to a postorder
-AssemblyTree assembly_tree(const QuotientGraph& graph, const std::vector<int>& places);
+/// @param places   [n] wanted place of each row in the elimination; kept up to a postorder
+/// @param matters  asks for the rows below some supernodes alone, most of the memory; null: of all
+AssemblyTree assembly_tree(const QuotientGraph& graph, const std::vector<int>& places,
+                           const WhatMatters& matters = {});
 
 }  // namespace chladni::linear

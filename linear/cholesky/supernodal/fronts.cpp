@@ -19,7 +19,7 @@ Fronts::Fronts(const AssemblyTree& tree, const MatrixRows& A)
 
 double* Fronts::left_over(int s)
 {
-  const std::size_t m = tree_.below(s).size();
+  const std::size_t m = tree_.n_below[s];
   if (!left_over_[s])
     left_over_[s] = std::make_unique_for_overwrite<double[]>(m * m);  // NOLINT(*-avoid-c-arrays)
   return left_over_[s].get();
@@ -27,7 +27,7 @@ double* Fronts::left_over(int s)
 
 void Fronts::add_entries(int s)
 {
-  const std::size_t front = tree_.n_columns(s) + tree_.below(s).size();
+  const std::size_t front = std::size_t(tree_.n_columns(s)) + tree_.n_below[s];
   places_.for_entries(A_, [&](int row, int column, double value) {
     columns_[std::size_t(row) + std::size_t(column) * front] += value;
   });
@@ -36,7 +36,7 @@ void Fronts::add_entries(int s)
 void Fronts::add_left_over(int child, int s)
 {
   const std::span<const int> rows = tree_.below(child);
-  const std::size_t m = rows.size(), w = tree_.n_columns(s), n_below = tree_.below(s).size();
+  const std::size_t m = rows.size(), w = tree_.n_columns(s), n_below = tree_.n_below[s];
   std::vector<std::size_t> place(m);
   for (std::size_t i = 0; i < m; ++i) place[i] = places_.place(rows[i]);
   for (std::size_t j = 0; j < m; ++j) {
@@ -77,7 +77,7 @@ double peak_of_left_overs(const AssemblyTree& tree, const std::vector<int>& supe
   std::vector<double> waiting(tree.n_supernodes(), 0.0);  // of the children of each
   double now = 0.0, peak = 0.0;
   for (const int s : supernodes) {
-    const auto m = double(tree.below(s).size());
+    const double m = tree.n_below[s];
     now += m * m;
     peak = std::max(peak, now);
     now -= waiting[s];

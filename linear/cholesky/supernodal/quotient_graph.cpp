@@ -2,32 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <utility>
 
+#include "linear/kernels/fingerprint.hpp"
 #include "linear/kernels/gather.hpp"
 
 namespace chladni::linear {
 
 namespace {
-
-/// Of a set of columns, in any order; 128 bits, so that two sets do not meet by chance.
-struct Fingerprint {
-  std::uint64_t a = 0, b = 0;
-  bool operator==(const Fingerprint&) const = default;
-
-  void add(std::uint64_t column)
-  {
-    a += mixed(column + 0x9E3779B97F4A7C15ULL);
-    b += mixed(column * 0xD1B54A32D192ED03ULL + 1);
-  }
-};
-
-struct Hash {
-  std::size_t operator()(const Fingerprint& f) const { return f.a ^ (f.b << 1); }
-};
 
 /// Rows of this rank that stand for a vertex, and the vertex of each row, both counted on this
 /// rank.
@@ -79,7 +62,7 @@ OwnVertices own_vertices(Mat A)
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(A, &first, &last));
   OwnVertices own;
-  std::unordered_map<Fingerprint, int, Hash> known;
+  ByFingerprint<int> known;
   LastRows last_rows;
   for (PetscInt row = first; row < last; ++row) {
     with_row(A, row, [&](const PetscInt* begin, const PetscInt* end) {

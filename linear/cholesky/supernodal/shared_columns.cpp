@@ -61,7 +61,7 @@ double* own_rows(const SharedColumns& L, Panels X, int panel)
 
 DealtRows dealt_rows(const AssemblyTree& tree, int s, const RankGroup& group)
 {
-  return {tree.n_columns(s), static_cast<int>(tree.below(s).size()), group, s};
+  return {tree.n_columns(s), tree.n_below[s], group, s};
 }
 
 std::size_t shared_size(const DealtRows& rows, int place)

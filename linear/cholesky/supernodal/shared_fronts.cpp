@@ -68,7 +68,7 @@ void SharedFronts::prepare(int s, const MatrixRows& A)
   front_.rows = dealt_rows(tree_, s, group_[s]);
   front_.place = rank_ - group_[s].first;
   places_.enter(s);
-  const std::size_t w = tree_.n_columns(s), m = tree_.below(s).size();
+  const std::size_t w = tree_.n_columns(s), m = tree_.n_below[s];
   const std::size_t n_own = front_.n_own(),
                     n_own_below = n_own - std::size_t(front_.n_own_pivots());
   own_row_.assign(w + m, -1);
@@ -100,7 +100,7 @@ void SharedFronts::pack(int s)
     const bool is_alone = group_[child].size() == 1;
     const double* column = is_alone ? own_.left_over(child) : left_over_[child].data();
     std::size_t first = 0;
-    for (int j = 0; j < std::ssize(tree_.below(child)); ++j, column += rows.size()) {
+    for (int j = 0; j < tree_.n_below[child]; ++j, column += rows.size()) {
       while (first < rows.size() && rows[first].row < j) ++first;
       for (std::size_t k = first; k < rows.size(); ++k)
         sent[next[rows[k].other]++] = column[rows[k].own];

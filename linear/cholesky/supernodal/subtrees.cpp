@@ -140,7 +140,7 @@ double operations_of_rank(const AssemblyTree& tree, int s, int n_ranks)
 {
   if (n_ranks == 1) return tree.n_operations(s);
   const double w = tree.n_columns(s);
-  const auto m = double(tree.below(s).size());
+  const double m = tree.n_below[s];
   const double block = std::min(w, double(columns_together));
   return (tree.n_operations(s) + w * w * w / 3.0 + w * w * m) / n_ranks + w * block * block / 3.0;
 }
@@ -174,6 +174,16 @@ std::vector<RankGroup> share_subtrees(const AssemblyTree& tree, int n_ranks)
   for (int s = n - 1; s >= 0; --s)  // from the roots of subtrees down
     if (owner[s] == nobody) owner[s] = owner[tree.parent[s]];
   return owner;
+}
+
+std::vector<char> seen_by(int rank, const AssemblyTree& tree, const std::vector<RankGroup>& group)
+{
+  std::vector<char> is_seen;
+  for (int s = 0; s < tree.n_supernodes(); ++s) {
+    const int parent = tree.parent[s];
+    is_seen.push_back(group[s].has(rank) || (parent != -1 && group[parent].has(rank)) ? 1 : 0);
+  }
+  return is_seen;
 }
 
 }  // namespace chladni::linear

@@ -35,4 +35,7 @@ double entries_of_rank(const AssemblyTree& tree, int s, const RankGroup& group, 
 /// Source: George, Liu and Ng, Parallel Computing 10 (1989) 287.
 std::vector<RankGroup> share_subtrees(const AssemblyTree& tree, int n_ranks);
 
+/// Whether a rank eliminates each supernode, or takes up what is left over of it.
+std::vector<char> seen_by(int rank, const AssemblyTree& tree, const std::vector<RankGroup>& group);
+
 }  // namespace chladni::linear

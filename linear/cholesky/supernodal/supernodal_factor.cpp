@@ -77,9 +77,11 @@ void SupernodalFactor::analyze(Mat A, const std::vector<int>& places)
   panel_values_.reset();
   error_ = MAT_FACTOR_NOERROR;
   n_negative_ = 0;
-  tree_ = assembly_tree(quotient_graph(A), places);
+  tree_ = assembly_tree(quotient_graph(A), places, [this](const AssemblyTree& tree) {
+    group_ = share_subtrees(tree, petsc::size(comm_));
+    return seen_by(rank_, tree, group_);
+  });
   make_groups();
-  group_ = share_subtrees(tree_, petsc::size(comm_));
   number_trees();
   whole_.supernodes = of_trees(std::vector<char>(tree_.n_supernodes(), 1));
   number_slots();
@@ -102,9 +104,8 @@ void SupernodalFactor::number_slots()
   const auto number = [&](const std::vector<int>& supernodes) {
     for (const int s : supernodes) {
       for (int p = tree_.first_column[s]; p < tree_.first_column[s + 1]; ++p) slot_[p] = n_slots_++;
-      const auto n_below = static_cast<int>(tree_.below(s).size());
       tile_starts_[s + 1] = is_shared(s) ? shared_size(dealt_rows(s), rank_ - group_[s].first)
-                                         : tiled_size(tree_.n_columns(s), n_below);
+                                         : tiled_size(tree_.n_columns(s), tree_.n_below[s]);
     }
   };
   number(whole_.supernodes.own);
@@ -139,12 +140,12 @@ double SupernodalFactor::peak_of_fronts() const
   double front = 0.0;  // L and L D; the largest one's memory is kept
   for (const int s : whole_.supernodes.own) {
     const double w = tree_.n_columns(s);
-    front = std::max(front, 2.0 * w * (w + double(tree_.below(s).size())));
+    front = std::max(front, 2.0 * w * (w + tree_.n_below[s]));
   }
   std::vector<double> of_children(tree_.n_supernodes(), 0.0);
   double waiting = 0.0, peak = peak_of_left_overs(tree_, whole_.supernodes.own);
   const auto wait = [&](int s) {
-    const auto m = double(tree_.below(s).size());
+    const double m = tree_.n_below[s];
     const double left_over = m * m / group_[s].size();
     waiting += left_over;
     if (tree_.parent[s] != -1) of_children[tree_.parent[s]] += left_over;
@@ -156,7 +157,7 @@ double SupernodalFactor::peak_of_fronts() const
   for (const std::vector<int>& supernodes : whole_.supernodes.shared) {
     for (const int s : supernodes) {
       const double w = tree_.n_columns(s), n = group_[s].size();
-      const auto m = double(tree_.below(s).size());
+      const double m = tree_.n_below[s];
       const int place = rank_ - group_[s].first;
       const double moved = of_children[s];  // half of it sent, about as much received
       wait(s);
@@ -195,17 +196,17 @@ void SupernodalFactor::factorize(Mat A)
   if (!tiles_) tiles_ = aligned_numbers(tile_starts_.back());
   error_ = MAT_FACTOR_NUMERIC_ZEROPIVOT;
   n_negative_ = 0;
-  const Visit keep{
-      .own =
-          [this](const Fronts& fronts, int s) {
-            store_tiles(fronts.columns(), tree_.n_columns(s),
-                        static_cast<int>(tree_.below(s).size()), tiles_.get() + tile_starts_[s]);
-          },
-      .shared =
-          [this](const DealtFront& front, int s) {
-            divide_by_triangle(front);
-            store_shared(front.rows, front.place, front.L, front.D, tiles_.get() + tile_starts_[s]);
-          }};
+  const Visit keep{.own =
+                       [this](const Fronts& fronts, int s) {
+                         store_tiles(fronts.columns(), tree_.n_columns(s), tree_.n_below[s],
+                                     tiles_.get() + tile_starts_[s]);
+                       },
+                   .shared =
+                       [this](const DealtFront& front, int s) {
+                         divide_by_triangle(front);
+                         store_shared(front.rows, front.place, front.L, front.D,
+                                      tiles_.get() + tile_starts_[s]);
+                       }};
   const Eliminated all = eliminate(A, keep);
   error_ = all.error;
   n_negative_ = all.n_negative;

@@ -1,4 +1,4 @@
-#include "plate/assembly/entry_scales.hpp"
+#include "plate/assembly/node_values.hpp"
 
 #include <algorithm>
 
@@ -21,7 +21,7 @@ std::vector<PetscInt> nodes_of_others(const BlockPattern& pattern)
 
 }  // namespace
 
-EntryScales::EntryScales(const BlockPattern& pattern, std::vector<double> own, MPI_Comm comm)
+NodeValues::NodeValues(const BlockPattern& pattern, std::vector<double> own, MPI_Comm comm)
     : n_(pattern.n), first_(pattern.first), own_(std::move(own))
 {
   if (petsc::size(comm) == 1) return;
@@ -41,7 +41,7 @@ EntryScales::EntryScales(const BlockPattern& pattern, std::vector<double> own, M
   petsc::check(VecScatterEnd(scatter, all, others, INSERT_VALUES, SCATTER_FORWARD));
 }
 
-const double* EntryScales::of(PetscInt node) const
+const double* NodeValues::of(PetscInt node) const
 {
   const PetscInt own = node - first_;
   if (own >= 0 && own < std::ssize(own_) / n_) return own_.data() + std::ptrdiff_t(n_) * own;

@@ -1,0 +1,144 @@
+#include "plate/assembly/alike_rows.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <span>
+
+#include "plate/assembly/node_values.hpp"
+
+namespace chladni::plate {
+
+namespace {
+
+/// Some DOFs of a node.
+using Dofs = std::uint64_t;
+
+constexpr int most_dofs = 8;  // of a node: 64 entries of a block
+
+/// For each DOF of a node, itself and those that it is alike with.
+using Alike = std::array<Dofs, most_dofs>;
+
+Dofs dof(int i)
+{
+  return Dofs{1} << i;
+}
+
+Dofs all_dofs(int n)
+{
+  return dof(n) - 1;
+}
+
+Dofs row_of(BlockEntries entries, int n, int i)
+{
+  return entries >> (n * i) & all_dofs(n);
+}
+
+template <typename Visit>
+void for_dofs(Dofs dofs, int n, const Visit& visit)
+{
+  for (int i = 0; i < n; ++i)
+    if ((dofs & dof(i)) != 0) visit(i);
+}
+
+/// How many columns the rows of a node have in common, each row with itself all.
+class CommonColumns {
+ public:
+  explicit CommonColumns(int n) : n_(n) {}
+
+  void add(BlockEntries entries, int times)
+  {
+    for (int i = 0; i < n_; ++i)
+      for (int k = 0; k <= i; ++k)
+        number_[i][k] += times * std::popcount(row_of(entries, n_, i) & row_of(entries, n_, k));
+  }
+  bool are_alike(int i, int k) const  // k < i
+  {
+    return 2 * number_[i][k] > std::min(number_[i][i], number_[k][k]);
+  }
+
+ private:
+  int n_;
+  std::array<std::array<int, most_dofs>, most_dofs> number_{};
+};
+
+/// Rows that share more than half of their columns, directly or by way of others.
+Alike alike_rows(std::span<const BlockEntries> blocks, int n)
+{
+  CommonColumns common(n);
+  for (std::size_t k = 0; k < blocks.size();) {  // most blocks are like those before
+    const std::size_t first = k;
+    while (k < blocks.size() && blocks[k] == blocks[first]) ++k;
+    common.add(blocks[first], static_cast<int>(k - first));
+  }
+  Alike alike{};
+  for (int i = 0; i < n; ++i) {
+    alike[i] |= dof(i);
+    for (int k = 0; k < i; ++k) {
+      if (!common.are_alike(i, k)) continue;
+      alike[i] |= dof(k);
+      alike[k] |= dof(i);
+    }
+  }
+  for (int k = 0; k < n; ++k) for_dofs(alike[k], n, [&](int i) { alike[i] |= alike[k]; });
+  return alike;
+}
+
+/// The entries, and all between some rows and columns that are alike where half are there.
+BlockEntries filled(BlockEntries entries, int n, const Alike& rows, const Alike& columns)
+{
+  BlockEntries all = entries;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      BlockEntries between = 0;
+      for_dofs(rows[i], n, [&](int k) { between |= columns[j] << (n * k); });
+      if ((entries & between) == between || (entries & between) == 0) continue;
+      if (2 * std::popcount(entries & between) > std::popcount(between)) all |= between;
+    }
+  }
+  return all;
+}
+
+/// Whole numbers up to 2^53 pass through doubles unharmed.
+std::vector<double> as_numbers(const BlockPattern& pattern,
+                               const std::vector<BlockEntries>& entries)
+{
+  std::vector<double> numbers;
+  for (PetscInt node = 0; node < pattern.n_rows(); ++node) {
+    const std::ptrdiff_t begin = pattern.start[node], end = pattern.start[node + 1];
+    const Alike alike = alike_rows({entries.data() + begin, entries.data() + end}, pattern.n);
+    for (int i = 0; i < pattern.n; ++i) numbers.push_back(static_cast<double>(alike[i]));
+  }
+  return numbers;
+}
+
+Alike alike_of(const NodeValues& nodes, PetscInt node, int n)
+{
+  Alike alike{};
+  for (int i = 0; i < n; ++i) alike[i] = static_cast<Dofs>(nodes.of(node)[i]);
+  return alike;
+}
+
+}  // namespace
+
+void make_rows_alike(const BlockPattern& pattern, std::vector<BlockEntries>& entries, MPI_Comm comm)
+{
+  const int n = pattern.n;
+  const NodeValues nodes(pattern, as_numbers(pattern, entries), comm);
+  for (PetscInt node = 0; node < pattern.n_rows(); ++node) {
+    const Alike rows = alike_of(nodes, pattern.first + node, n);
+    Alike columns{}, columns_before{};
+    BlockEntries before = 0, filled_before = 0;  // most blocks are like those before
+    for (std::ptrdiff_t k = pattern.start[node]; k < pattern.start[node + 1]; ++k) {
+      columns = alike_of(nodes, pattern.column[k], n);
+      if (entries[k] != before || columns != columns_before) {
+        before = entries[k];
+        columns_before = columns;
+        filled_before = filled(before, n, rows, columns);
+      }
+      entries[k] = filled_before;
+    }
+  }
+}
+
+}  // namespace chladni::plate
