@@ -120,7 +120,7 @@ BlockGraph own_graph(Mat A, const OwnBlocks& own, const std::vector<int>& block_
 }
 
 /// Blocks of this rank with the same neighbours, each counted among its own, become one: they are
-/// eliminated together in any case. Of a mesh of cubic shells three of five are left out.
+/// eliminated together in any case. Of cubic quadrilaterals four of nine are left.
 /// METIS_NodeND does that by itself, but the graph that ranks send each other is a fifth then.
 /// @param graph     of the blocks of this rank; afterwards of those that are left
 /// @param block_of  [rows of A] numbers of the blocks, which become those of the ones left
@@ -133,7 +133,7 @@ void merge_alike(BlockGraph& graph, std::vector<int>& block_of, MPI_Comm comm)
   auto next = graph.neighbours.cbegin();
   for (int b = 0; b < n_own; ++b) {
     Fingerprint neighbours;
-    neighbours.add(std::uint64_t(first + b));
+    neighbours.add(std::uint64_t(first) + std::uint64_t(b));
     for (int k = 0; k < graph.degrees[b]; ++k) neighbours.add(std::uint64_t(*next++));
     merged.push_back(known.try_emplace(neighbours, std::ssize(known)).first->second);
   }

@@ -1,6 +1,7 @@
 #include "linear/kernels/lanes.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace chladni::linear {
 
@@ -30,7 +31,8 @@ int numbers_in_lane()
 
 int limit_lanes(int most)
 {
-  most_numbers() = std::min(most, numbers_of_processor());
+  most_numbers() =
+      std::clamp(static_cast<int>(std::bit_floor(unsigned(most))), 2, numbers_of_processor());
   return most_numbers();
 }
 

@@ -9,7 +9,7 @@ namespace chladni::linear {
 
 namespace {
 
-constexpr int line = 8;             // numbers in a cache line
+constexpr int line = 8;            // numbers in a cache line
 constexpr std::size_t ahead = 64;  // numbers: what to ask the memory for; eight columns are many
 
 /// Numbers of a lane change places with those of another, a power of two before or behind.
@@ -19,8 +19,7 @@ template <int distance, int... k>
 {
   constexpr int n = sizeof...(k);
   const auto first = a.values;
-  a.values = __builtin_shufflevector(first, b.values,
-                                     (k & distance ? n + k - distance : k)...);
+  a.values = __builtin_shufflevector(first, b.values, (k & distance ? n + k - distance : k)...);
   b.values = __builtin_shufflevector(first, b.values, (k & distance ? n + k : k + distance)...);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <span>
 
 #include "plate/assembly/node_values.hpp"
@@ -54,7 +55,7 @@ class CommonColumns {
   }
   bool are_alike(int i, int k) const  // k < i
   {
-    return 2 * number_[i][k] > std::min(number_[i][i], number_[k][k]);
+    return 2 * number_[i][k] > std::max(number_[i][i], number_[k][k]);
   }
 
  private:
@@ -62,7 +63,7 @@ class CommonColumns {
   std::array<std::array<int, most_dofs>, most_dofs> number_{};
 };
 
-/// Rows that share more than half of their columns, directly or by way of others.
+/// Rows that share more than half of the columns of the longer one, directly or by way of others.
 Alike alike_rows(std::span<const BlockEntries> blocks, int n)
 {
   CommonColumns common(n);
@@ -84,7 +85,8 @@ Alike alike_rows(std::span<const BlockEntries> blocks, int n)
   return alike;
 }
 
-/// The entries, and all between some rows and columns that are alike where half are there.
+/// The entries, and all between some rows and columns that are alike where more than half are
+/// there.
 BlockEntries filled(BlockEntries entries, int n, const Alike& rows, const Alike& columns)
 {
   BlockEntries all = entries;
@@ -121,8 +123,10 @@ Alike alike_of(const NodeValues& nodes, PetscInt node, int n)
 
 }  // namespace
 
-void make_rows_alike(const BlockPattern& pattern, std::vector<BlockEntries>& entries, MPI_Comm comm)
+void make_rows_alike(const BlockPattern& pattern, std::vector<BlockEntries>& entries,
+                     BlockEntries room, MPI_Comm comm)
 {
+  assert(pattern.n <= most_dofs);
   const int n = pattern.n;
   const NodeValues nodes(pattern, as_numbers(pattern, entries), comm);
   for (PetscInt node = 0; node < pattern.n_rows(); ++node) {
@@ -134,7 +138,7 @@ void make_rows_alike(const BlockPattern& pattern, std::vector<BlockEntries>& ent
       if (entries[k] != before || columns != columns_before) {
         before = entries[k];
         columns_before = columns;
-        filled_before = filled(before, n, rows, columns);
+        filled_before = before | (filled(before, n, rows, columns) & room);
       }
       entries[k] = filled_before;
     }

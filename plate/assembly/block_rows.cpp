@@ -177,8 +177,13 @@ petsc::Matrix BlockRows::to_symmetric_matrix(MPI_Comm comm, double negligible, R
   std::optional<NodeValues> scales;
   if (negligible > 0.0) scales.emplace(pattern_, diagonal_scales(blocks, values_), comm);
   const Sieve sieve{.negligible = negligible, .scales = scales ? &*scales : nullptr};
-  std::vector<BlockEntries> entries = sifted(blocks, sieve, values_);
-  if (rows == Rows::alike) make_rows_alike(pattern_, entries, comm);
+  std::vector<BlockEntries> entries =
+      on_all_ranks(comm, [&] { return sifted(blocks, sieve, values_); });
+  if (rows == Rows::alike) {
+    std::uint64_t room = pattern_.n_rows() > 0 ? components_ : ~std::uint64_t{0};
+    MPI_Allreduce(MPI_IN_PLACE, &room, 1, MPI_UINT64_T, MPI_BAND, comm);
+    make_rows_alike(pattern_, entries, room, comm);
+  }
   SplitRows split =
       on_all_ranks(comm, [&] { return split_rows(blocks, std::move(values_), entries); });
   petsc::Matrix A = matrix_of(std::move(split), pattern_.n * pattern_.n_rows(), comm);

@@ -56,7 +56,8 @@ class BlockRows {
   /// The same of a symmetric matrix.
   /// @param negligible  entries with |A_ij| <= negligible sqrt |A_ii A_jj| are round-off and
   /// dropped
-  /// @param rows        alike: with zeros where `make_rows_alike` adds an entry
+  /// @param rows        alike: with zeros where `make_rows_alike` adds an entry, of components that
+  ///                    each rank with rows has
   petsc::Matrix to_symmetric_matrix(MPI_Comm comm, double negligible, Rows rows);
 
  private:
