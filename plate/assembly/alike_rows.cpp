@@ -63,18 +63,43 @@ class CommonColumns {
   std::array<std::array<int, most_dofs>, most_dofs> number_{};
 };
 
-/// Rows that share more than half of the columns of the longer one, directly or by way of others.
+/// Calls visit(entries, times) for the blocks of a node, most of which are like those before.
+template <typename Visit>
+void for_runs(std::span<const BlockEntries> blocks, const Visit& visit)
+{
+  for (std::size_t k = 0; k < blocks.size();) {
+    const std::size_t first = k;
+    while (k < blocks.size() && blocks[k] == blocks[first]) ++k;
+    visit(blocks[first], static_cast<int>(k - first));
+  }
+}
+
+/// Entries that rows of a node have besides their own when those that are alike have the same.
+struct Growth {
+  int entries = 0, added = 0;
+
+  void add(BlockEntries block, int times, int n, const Alike& alike)
+  {
+    for (int i = 0; i < n; ++i) {
+      Dofs wide = 0;
+      for_dofs(alike[i], n, [&](int k) { wide |= row_of(block, n, k); });
+      const int own = std::popcount(row_of(block, n, i));
+      entries += times * own;
+      added += times * (std::popcount(wide) - own);
+    }
+  }
+};
+
+/// Rows that share more than half of the columns of the longer one, directly or by way of others;
+/// none where that would add many entries, as on a plate of rectangles.
 Alike alike_rows(std::span<const BlockEntries> blocks, int n)
 {
   CommonColumns common(n);
-  for (std::size_t k = 0; k < blocks.size();) {  // most blocks are like those before
-    const std::size_t first = k;
-    while (k < blocks.size() && blocks[k] == blocks[first]) ++k;
-    common.add(blocks[first], static_cast<int>(k - first));
-  }
-  Alike alike{};
+  for_runs(blocks, [&](BlockEntries entries, int times) { common.add(entries, times); });
+  Alike alone{};
+  for (int i = 0; i < n; ++i) alone[i] = dof(i);
+  Alike alike = alone;
   for (int i = 0; i < n; ++i) {
-    alike[i] |= dof(i);
     for (int k = 0; k < i; ++k) {
       if (!common.are_alike(i, k)) continue;
       alike[i] |= dof(k);
@@ -82,7 +107,10 @@ Alike alike_rows(std::span<const BlockEntries> blocks, int n)
     }
   }
   for (int k = 0; k < n; ++k) for_dofs(alike[k], n, [&](int i) { alike[i] |= alike[k]; });
-  return alike;
+  Growth growth;
+  for_runs(blocks, [&](BlockEntries entries, int times) { growth.add(entries, times, n, alike); });
+  constexpr int many = 20;  // one in so many
+  return many * growth.added > growth.entries ? alone : alike;
 }
 
 /// The entries, and all between some rows and columns that are alike where more than half are

@@ -15,7 +15,8 @@ using BlockEntries = std::uint64_t;
 /// their own, and sparse products and symbolic factorisation take each row by itself. Rows are
 /// alike that share more than half of the columns of the longer one, not those of bending and of
 /// motion in the plane, which may have a few entries in common that are hardly more than round-off.
-/// Between two sets of them all entries are added where a block has more than half.
+/// Between two sets of them all entries are added where a block has more than half. A node where
+/// that would add more than a twentieth keeps the rows that it has.
 /// @param entries  [n_blocks] of the blocks of the pattern; symmetric over all ranks
 /// @param room     entries that can be added to any block; symmetric, the same on all ranks
 /// @note   Collective on `comm`.
