@@ -52,9 +52,7 @@ struct Numbering {
 
 Numbering numbering(int n_own, MPI_Comm comm)
 {
-  Numbering numbers{.comm = comm, .first = 0, .n_all = 0};
-  MPI_Exscan(&n_own, &numbers.first, 1, MPI_INT, MPI_SUM, comm);
-  if (petsc::rank(comm) == 0) numbers.first = 0;
+  Numbering numbers{.comm = comm, .first = first_number(n_own, comm), .n_all = 0};
   MPI_Allreduce(&n_own, &numbers.n_all, 1, MPI_INT, MPI_SUM, comm);
   return numbers;
 }

@@ -37,6 +37,15 @@ inline std::vector<int> offsets(const std::vector<int>& counts)
   return at;
 }
 
+/// The first of the numbers of this rank, where the ranks count one after the other.
+/// @note   Collective on `comm`.
+inline int first_number(int n_own, MPI_Comm comm)
+{
+  int first = 0;
+  MPI_Exscan(&n_own, &first, 1, MPI_INT, MPI_SUM, comm);
+  return petsc::rank(comm) == 0 ? 0 : first;
+}
+
 /// The number of values of each rank, on all ranks.
 /// @note   Collective on `comm`.
 /// @throws chladni::Error on all ranks when one has more than a call of MPI can count.

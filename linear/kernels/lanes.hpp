@@ -4,8 +4,8 @@
 
 namespace chladni::linear {
 
-/// As many numbers side by side as the instructions of a processor take at once. Where they take
-/// fewer, compilers move each number by itself.
+/// As many numbers side by side as the instructions of a processor take at once: GCC moves the
+/// numbers of a wider vector one by one, by way of the stack.
 template <int numbers>
 struct Lane;
 template <>

@@ -8,6 +8,7 @@
 #include "common/petsc.hpp"
 #include "linear/cholesky/elimination_order.hpp"
 #include "linear/cholesky/supernodal/supernodal_factor.hpp"
+#include "linear/kernels/own_submatrix.hpp"
 #include "matrices.hpp"
 
 namespace chladni::linear {
@@ -87,13 +88,17 @@ TEST(SharedDissection, FillsTheFactorAsTheDissectionOfOneRankDoes)
   EXPECT_LT(factor.size().entries, 1.1 * alone.size().entries);
 }
 
-/// Two rows for each vertex, those of two neighbouring vertices in turn.
-TEST(EliminationOrder, KeepsRowsWithTheSameColumnsTogether)
+/// The row of a copy of a vertex: two rows for each, those of two neighbouring vertices in turn.
+int row_of(int vertex, int copy)
 {
-  constexpr int side = 72, most_entries = 18;
-  const Adjacency graph = grid(side);
-  const auto row_of = [](int vertex, int copy) { return vertex / 2 * 4 + copy * 2 + vertex % 2; };
-  const petsc::Matrix A = testing::matrix(2 * graph.n_vertices(), most_entries, [&](PetscInt row) {
+  return vertex / 2 * 4 + copy * 2 + vertex % 2;
+}
+
+/// Both copies of a vertex are coupled with both of each neighbour.
+petsc::Matrix doubled(const Adjacency& graph)
+{
+  constexpr int most_entries = 18;
+  return testing::matrix(2 * graph.n_vertices(), most_entries, [&](PetscInt row) {
     const PetscInt v = row / 4 * 2 + row % 2;
     testing::Row entries{{row, most_entries}, {row_of(v, row % 4 < 2 ? 1 : 0), -1.0}};
     for (int k = graph.starts[v]; k < graph.starts[v + 1]; ++k)
@@ -101,16 +106,43 @@ TEST(EliminationOrder, KeepsRowsWithTheSameColumnsTogether)
         entries.push_back({row_of(graph.neighbours[k], copy), -1.0});
     return entries;
   });
-  const std::vector<int> places = elimination_order(A);
+}
+
+void expect_each_place_once(std::vector<int> places)
+{
+  std::ranges::sort(places);
+  for (int i = 0; i < std::ssize(places); ++i) ASSERT_EQ(places[i], i + 1);
+}
+
+TEST(EliminationOrder, KeepsRowsWithTheSameColumnsTogether)
+{
+  const Adjacency graph = grid(72);
+  const std::vector<int> places = elimination_order(doubled(graph));
   if (petsc::rank(PETSC_COMM_WORLD) != 0) return;
   ASSERT_EQ(places.size(), 2 * graph.n_vertices());
-  std::vector<int> sorted = places;
-  std::ranges::sort(sorted);
-  for (int i = 0; i < std::ssize(sorted); ++i) ASSERT_EQ(sorted[i], i + 1);
+  expect_each_place_once(places);
   int n_apart = 0;
   for (int v = 0; v < graph.n_vertices(); ++v)
     n_apart += std::abs(places[row_of(v, 0)] - places[row_of(v, 1)]) != 1;
   EXPECT_LE(n_apart, 4 * petsc::size(PETSC_COMM_WORLD));  // where a rank's rows end
+}
+
+TEST(EliminationOrder, OfSomeRowsIsThatOfTheirMatrix)
+{
+  const petsc::Matrix A = doubled(grid(80));
+  PetscInt begin = 0, end = 0;
+  petsc::check(MatGetOwnershipRange(A, &begin, &end));
+  std::vector<PetscInt> own;
+  for (PetscInt row = begin; row < end; ++row)
+    if (row % 13 != 5) own.push_back(row);
+  petsc::IndexSet rows;
+  petsc::check(ISCreateGeneral(PETSC_COMM_WORLD, static_cast<PetscInt>(own.size()), own.data(),
+                               PETSC_COPY_VALUES, rows.put()));
+  const std::vector<int> places = elimination_order(A, rows);
+  EXPECT_EQ(places, elimination_order(own_submatrix(A, rows, rows)));
+  if (petsc::rank(PETSC_COMM_WORLD) != 0) return;
+  EXPECT_GT(places.size(), 10000);  // or the ranks do not dissect it together
+  expect_each_place_once(places);
 }
 
 }  // namespace

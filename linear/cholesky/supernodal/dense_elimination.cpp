@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "common/fitting_instructions.hpp"
+
 namespace chladni::linear {
 
 namespace {
@@ -13,10 +15,7 @@ namespace {
 constexpr int panel_columns = 24;  // eliminated one by one
 constexpr int block_columns = 64;  // of a lower triangle that are updated as a rectangle
 
-// The widest instructions of the processor at hand; Debian's baseline has two numbers in one.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#endif
+CHLADNI_FITTING_INSTRUCTIONS
 void subtract_multiple(double factor, const double* __restrict x, int n, double* __restrict y)
 {
   for (int i = 0; i < n; ++i) y[i] -= factor * x[i];

@@ -93,9 +93,7 @@ QuotientGraph quotient_graph(Mat A)
   const MPI_Comm comm = petsc::communicator(A);
   OwnVertices own = own_vertices(A);
   const auto n_own = static_cast<int>(own.n_rows.size());
-  int before = 0;
-  MPI_Exscan(&n_own, &before, 1, MPI_INT, MPI_SUM, comm);
-  if (petsc::rank(comm) == 0) before = 0;
+  const int before = first_number(n_own, comm);
   for (int& vertex : own.of_row) vertex += before;
   QuotientGraph graph{.vertex_of_row = gather_on_all(std::move(own.of_row), MPI_INT, comm),
                       .n_rows = gather_on_all(std::move(own.n_rows), MPI_INT, comm),
