@@ -134,12 +134,13 @@ def memory_of_one_rank(plugin):
         except subprocess.TimeoutExpired:
             return "hangs"
 
-    text = solved(500_000, 1)  # too little for a block, of which the other rank does not know
+    text = solved(60_000_000, 1)  # too little for the blocks, of which the other rank does not know
     yield expect("memory that one rank lacks ends both",
                  "rank 1 has not enough memory" in text and "came to its end" not in text)  # fmt: skip
-    text = solved(10_000_000, 0)  # too little for the eigenvectors, about which all ranks are asked
+    text = solved(10_000_000, 0)  # too little for the basis, about which all ranks are asked
     yield expect("or is an error of both",
-                 text.count("no memory for") >= 2 and text.count("came to its end") == 2)  # fmt: skip
+                 len(re.findall(r"no memory for \d+ vectors", text)) == 2
+                 and text.count("came to its end") == 2)  # fmt: skip
 
 
 def class_of_the_compiled_example(plugin):

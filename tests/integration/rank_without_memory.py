@@ -12,7 +12,7 @@ slepc4py.init(sys.argv)
 from petsc4py import PETSc  # noqa: E402  after init, which reads the options
 from slepc4py import SLEPc  # noqa: E402
 
-N = 200_000  # rows: what is larger than the heap has left over is asked of the system
+N = 200_000  # rows
 BLOCK = 8  # vectors solved at a time
 
 
@@ -27,6 +27,24 @@ def chain():
     return A
 
 
+def bytes_taken():
+    return int(open("/proc/self/statm", encoding="ascii").read().split()[0]) * resource.getpagesize()
+
+
+def allow(n_bytes):
+    resource.setrlimit(resource.RLIMIT_AS, (n_bytes, resource.RLIM_INFINITY))
+
+
+def what_the_heap_has_left_over():
+    """Blocks that fill the heap, so that whatever is larger is asked of the system."""
+    blocks = []
+    try:
+        while True:
+            blocks.append(bytearray(1 << 18))
+    except MemoryError:
+        return blocks
+
+
 eps = SLEPc.EPS().create()
 eps.setOperators(chain())
 eps.setProblemType(SLEPc.EPS.ProblemType.HEP)
@@ -37,11 +55,12 @@ eps.setType("blocklanczos")
 eps.setFromOptions()
 eps.setUp()
 if PETSc.COMM_WORLD.getRank() == 1:
-    pages = int(open("/proc/self/statm", encoding="ascii").read().split()[0])
+    taken = bytes_taken()
+    allow(taken)
+    left_over = what_the_heap_has_left_over()
     _, n_vectors, _ = eps.getDimensions()
     basis = 8 * (N // 2) * (n_vectors + BLOCK)
-    most = pages * resource.getpagesize() + basis + PETSc.Options().getInt("little")
-    resource.setrlimit(resource.RLIMIT_AS, (most, resource.RLIM_INFINITY))
+    allow(taken + basis + PETSc.Options().getInt("little"))
 try:
     eps.solve()
 except PETSc.Error as error:
