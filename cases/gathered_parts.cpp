@@ -4,8 +4,8 @@
 
 #include "cases/harmonic_part.hpp"
 #include "cases/ranks.hpp"
+#include "common/packing.hpp"
 #include "common/petsc.hpp"
-#include "mesh/packing.hpp"
 
 namespace chladni::cases {
 
@@ -13,14 +13,14 @@ namespace {
 
 using Eigen::MatrixXd;
 
-void transfer(mesh::Packer& archive, const MatrixXd& A)
+void transfer(Packer& archive, const MatrixXd& A)
 {
   archive(std::int64_t{A.rows()});
   archive(std::int64_t{A.cols()});
   archive(std::vector<double>(A.data(), A.data() + A.size()));
 }
 
-void transfer(mesh::Unpacker& archive, MatrixXd& A)
+void transfer(Unpacker& archive, MatrixXd& A)
 {
   std::int64_t rows = 0, cols = 0;
   std::vector<double> values;
@@ -84,7 +84,7 @@ void transfer_part(auto& archive, auto& part, auto& omega)
 
 std::vector<char> packed(const std::vector<HarmonicPart>& parts)
 {
-  mesh::Packer packer;
+  Packer packer;
   packer(parts.size());
   for (const HarmonicPart& part : parts) {
     const MatrixXd omega = part.omega;
@@ -95,7 +95,7 @@ std::vector<char> packed(const std::vector<HarmonicPart>& parts)
 
 void unpack(const std::vector<char>& bytes, std::vector<HarmonicPart>& parts)
 {
-  mesh::Unpacker unpacker(bytes);
+  Unpacker unpacker(bytes);
   std::size_t n = 0;
   unpacker(n);
   for (std::size_t i = 0; i < n; ++i) {

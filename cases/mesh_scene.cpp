@@ -20,7 +20,7 @@ mesh::Mesh broadcast(const mesh::Mesh& mesh)
   if (n_ranks() == 1) return mesh;
   std::vector<char> bytes;
   if (rank() == 0) {
-    mesh::Packer packer;
+    Packer packer;
     pack(packer, mesh);
     bytes = packer.bytes();
   }
@@ -32,7 +32,7 @@ mesh::Mesh broadcast(const mesh::Mesh& mesh)
     const auto count = static_cast<int>(std::min(piece, size - at));
     MPI_Bcast(bytes.data() + at, count, MPI_BYTE, 0, PETSC_COMM_WORLD);
   }
-  mesh::Unpacker unpacker(bytes);
+  Unpacker unpacker(bytes);
   return mesh::unpack_mesh(unpacker);
 }
 

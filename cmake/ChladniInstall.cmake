@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/chladni)
 set(light_libraries common files dense fmu mbs_export squeal_options squeal_brake squeal)
-set(fe_libraries petsc linear confinement mesh elements plate reduce reduce_export sound)
+set(fe_libraries petsc linear confinement mesh elements plate reduce reduce_export air_of_gmsh sound)
 
 # chladni_export(SET LIBRARIES...): those that are built become chladni::NAME of the package.
 function(chladni_export set)
@@ -40,7 +40,7 @@ if(CHLADNI_FE)
   chladni_export(chladni-fe-targets ${fe_libraries})
   chladni_install_program(chladni fe)
   install(TARGETS chladni_fmu_binary chladni_fmu_brake_binary LIBRARY DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/chladni COMPONENT fe)
-  install(TARGETS chladni_mesh_reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/chladni COMPONENT fe)
+  install(TARGETS chladni_mesher RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/chladni COMPONENT fe)
   set_target_properties(chladni_petsc_plugin PROPERTIES EXPORT_NAME cms)
   install(TARGETS chladni_petsc_plugin EXPORT chladni-plugin-targets
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT fe
@@ -199,7 +199,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_NAME libchladni-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, libhdf5-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS
-    "libpetsc-real-dev, libslepc-real-dev, libgmsh-dev, libmetis-dev, libmumps-dev, libmuparser-dev, libopenblas-dev, libexpat1-dev")
+    "libpetsc-real-dev, libslepc-real-dev, libmetis-dev, libmumps-dev, libmuparser-dev, libopenblas-dev, libexpat1-dev")
 set(CPACK_COMPONENTS_ALL squeal dev)
 if(CHLADNI_FE)
   list(APPEND CPACK_COMPONENTS_ALL fe)

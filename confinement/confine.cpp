@@ -90,10 +90,15 @@ bool is_left_alone()
 
 }  // namespace
 
-void confine(const Limits& limits)
+void end_with_caller()
 {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (is_left_alone()) _exit(exit_left_alone);
+}
+
+void confine(const Limits& limits)
+{
+  end_with_caller();
   std::set_new_handler([] { _exit(exit_out_of_memory); });
   lower(RLIMIT_CORE, 0);
   lower(RLIMIT_FSIZE, 1 << 20);  // of files in memory; of others there are none

@@ -52,6 +52,7 @@ struct Mesh {
   std::vector<Group> groups;
   std::vector<std::string> notes;  ///< for the user: what was changed or left out on reading
   Sectors sectors = {};
+  std::string made_by = {};  ///< path of the library that made it; empty: this program
 
   int n_nodes() const { return static_cast<int>(positions.size()); }
 };

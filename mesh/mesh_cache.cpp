@@ -2,22 +2,22 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <gmsh.h>
 #include <link.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <regex>
 
 #include "common/error.hpp"
+#include "confinement/helper.hpp"
 #include "files/file_digest.hpp"
 #include "files/regular_file.hpp"
 #include "files/text_file.hpp"
 #include "files/xxh64.hpp"
 #include "mesh/decks/is_deck.hpp"
-#include "mesh/mesh_reader.hpp"
 #include "mesh/packed_mesh.hpp"
 
 namespace chladni::mesh {
@@ -46,87 +46,24 @@ std::string digest_of_home(const void* address)
   return files::file_digest(is_library ? place->l_name : "/proc/self/exe");
 }
 
-/// Of this program, of Gmsh, and of the program that reads files: others may make other meshes.
-/// Empty if one cannot be read.
-std::string digests_of_programs(const MeshOptions& options)
+/// Of this program and of the mesher: others may make other meshes. Empty if one cannot be read.
+std::string digests_of_programs()
 {
-  void* gmsh = dlsym(RTLD_DEFAULT, "gmshInitialize");  // of its interface to C
+  const std::string own = digest_of_home(reinterpret_cast<const void*>(&digest_of_home));
+  const std::string of_mesher =
+      files::file_digest(confinement::helper(confinement::mesher).string());
+  return own.empty() || of_mesher.empty() ? std::string() : own + of_mesher;
+}
+
+/// Where the mesher looks for its libraries, beside the places that the system has for them.
+std::string library_folders()
+{
   std::string all;
-  std::vector<std::string> digests{digest_of_home(reinterpret_cast<const void*>(&digest_of_home)),
-                                   gmsh == nullptr ? std::string() : digest_of_home(gmsh)};
-  if (options.file) digests.push_back(files::file_digest(reader_program()));
-  for (const std::string& digest : digests) {
-    if (digest.empty()) return "";
-    all += digest;
+  for (const char* variable : {"LD_LIBRARY_PATH", "LD_PRELOAD"}) {
+    const char* said = std::getenv(variable);
+    all += fmt::format("{}={}\n", variable, said == nullptr ? "" : said);
   }
   return all;
-}
-
-// The bindings name all members: who adds one is asked for it here.
-
-void pack_rings(Packer& packer, const std::vector<RingOptions>& rings)
-{
-  packer.each(rings, [](Packer& a, const RingOptions& ring) {
-    const auto& [name, radius, nodes, z] = ring;
-    a(name);
-    a(radius);
-    a(nodes);
-    a(z);
-  });
-}
-
-void pack_all(Packer& packer, const auto&... values)
-{
-  (packer(values), ...);
-}
-
-void pack_generator(Packer& packer, const AnnulusOptions& options)
-{
-  const auto& [inner, outer, size, order, rings, pattern, edge_row, sectors] = options;
-  pack_all(packer, inner, outer, size, order, pattern, edge_row, sectors);
-  pack_rings(packer, rings);
-}
-
-void pack_generator(Packer& packer, const HatDiscOptions& options)
-{
-  const auto& [inner, outer, wall, top, hub, height, foot, size, order, rings, pattern, edge_row,
-               bolts, sectors] = options;
-  pack_all(packer, inner, outer, wall, top, hub, height, foot, size, order, pattern, edge_row,
-           sectors);
-  pack_rings(packer, rings);
-  packer(bolts.has_value());
-  if (!bolts) return;
-  const auto& [count, circle, hole] = *bolts;
-  pack_all(packer, count, circle, hole);
-}
-
-void pack_generator(Packer& packer, const PadOptions& options)
-{
-  const auto& [inner, outer, angle, centre, size, order, pattern, edge_row] = options;
-  pack_all(packer, inner, outer, angle, centre, size, order, pattern, edge_row);
-}
-
-void pack_generator(Packer& packer, const RectangleOptions& options)
-{
-  const auto& [length, width, size, order, pattern, edge_row] = options;
-  pack_all(packer, length, width, size, order, pattern, edge_row);
-}
-
-void pack_generator(Packer& packer, const BeamMeshOptions& options)
-{
-  const auto& [start, end, elements, size, points, order] = options;
-  pack_all(packer, start, end, elements, size, order);
-  packer.each(points, [](Packer& a, const BeamPoint& point) {
-    const auto& [name, distance] = point;
-    pack_all(a, name, distance);
-  });
-}
-
-template <typename Options>
-void pack_generator(Packer& packer, const std::optional<Options>& options)
-{
-  packer(options.has_value());
-  if (options) pack_generator(packer, *options);
 }
 
 std::string text_of(const fs::path& file)
@@ -151,21 +88,25 @@ std::string why_not_kept(const MeshOptions& options)
 std::string key_of(const MeshOptions& options, const std::string& programs)
 {
   Packer packer;
-  pack_all(packer, programs, std::string(GMSH_API_VERSION));
-  pack_generator(packer, options.annulus);
-  pack_generator(packer, options.hat_disc);
-  pack_generator(packer, options.pad);
-  pack_generator(packer, options.rectangle);
-  pack_generator(packer, options.beam);
+  packer(programs);
+  packer(library_folders());
   pack(packer, options);
   if (options.file) packer(files::file_digest(*options.file));
   return digest_of({packer.bytes().data(), packer.bytes().size()});
 }
 
-constexpr std::string_view magic = "chladni mesh 1\n";
+constexpr std::string_view magic = "chladni mesh 2\n";
 constexpr std::size_t digest_length = 16;
 
-/// Nothing if there is no such file, or it is not whole.
+/// Of the library that made the mesh, as its file is now. What read a stranger's file may say
+/// anything of itself.
+std::string digest_of_library(const Mesh& mesh)
+{
+  std::error_code ignored;
+  return fs::is_regular_file(mesh.made_by, ignored) ? files::file_digest(mesh.made_by) : "";
+}
+
+/// Nothing if there is no such file, it is not whole, or another library would make the mesh now.
 std::optional<Mesh> kept(const fs::path& path)
 {
   std::error_code ignored;
@@ -178,7 +119,12 @@ std::optional<Mesh> kept(const fs::path& path)
   try {
     const std::vector<char> bytes(packed.begin(), packed.end());
     Unpacker unpacker(bytes);
-    return unpack_mesh(unpacker);
+    std::string library;
+    unpacker(library);
+    Mesh mesh = unpack_mesh(unpacker);
+    const bool is_known = mesh.made_by.empty() || !library.empty();
+    if (!is_known || digest_of_library(mesh) != library) return std::nullopt;
+    return mesh;
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -188,6 +134,7 @@ std::optional<Mesh> kept(const fs::path& path)
 std::string keep(const Mesh& mesh, const fs::path& path)
 {
   Packer packer;
+  packer(digest_of_library(mesh));
   pack(packer, mesh);
   const std::string_view packed(packer.bytes().data(), packer.bytes().size());
   std::string text(magic);
@@ -216,7 +163,7 @@ Mesh kept_mesh(const MeshOptions& options, const std::function<Mesh()>& make)
       return mesh;
     }
   }
-  const std::string programs = digests_of_programs(options);
+  const std::string programs = digests_of_programs();
   if (programs.empty()) {
     Mesh mesh = make();
     mesh.notes.emplace_back("the mesh is not kept: the programs that make it cannot be read");

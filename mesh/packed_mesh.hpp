@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
+
+#include "common/packing.hpp"
+#include "confinement/confine.hpp"
 #include "mesh/decks/declarations.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/mesh_options.hpp"
-#include "mesh/packing.hpp"
 
 namespace chladni::mesh {
 
@@ -20,8 +23,12 @@ Mesh unpack_mesh(Unpacker& unpacker);
 void pack(Packer& packer, const Declarations& declared);
 Declarations unpack_declarations(Unpacker& unpacker);
 
-/// Writes the options that concern a file: all but the generators.
+/// Writes the options that decide on the mesh of a file, as it is read, or of a generator.
 void pack(Packer& packer, const MeshOptions& options);
 MeshOptions unpack_options(Unpacker& unpacker);
+
+/// Writes the limits of a process that reads a file.
+void pack(Packer& packer, const std::optional<confinement::Limits>& limits);
+std::optional<confinement::Limits> unpack_limits(Unpacker& unpacker);
 
 }  // namespace chladni::mesh

@@ -7,7 +7,7 @@
 #include "mesh/coincident_nodes.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/mesh_cache.hpp"
-#include "mesh/mesh_reader.hpp"
+#include "mesh/mesher.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/rings.hpp"
 #include "mesh/sectors.hpp"
@@ -15,11 +15,6 @@
 namespace chladni::mesh {
 
 namespace {
-
-Mesh read(const MeshOptions& options)
-{
-  return options.trust == Trust::owner ? read_here(options, [] {}) : read_confined(options);
-}
 
 /// Of a file whose numbers look like millimetres; empty where they do not.
 std::string hint_of_unit(const Mesh& mesh, const MeshOptions& options)
@@ -52,7 +47,7 @@ Mesh read_gmsh(const MeshOptions& options)
 {
   const std::string& file = options.file.value();
   try {
-    Mesh made = kept_mesh(options, [&] { return read(options); });
+    Mesh made = kept_mesh(options, [&] { return made_by_mesher(options); });
     Mesh mesh =
         treat_coincident_nodes(std::move(made), options.coincident_nodes, options.merge_tolerance);
     find_sector_edges(mesh, options.sectors);

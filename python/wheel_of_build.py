@@ -50,7 +50,7 @@ def files_of(folder, with_fe):
     if with_fe:
         plugin = (folder / "lib/libchladni_petsc.so").resolve()
         yield "chladni/libchladni_petsc.so." + ".".join(version().split(".")[:2]), plugin
-        yield "chladni/chladni-mesh-reader", folder / "libexec/chladni/chladni-mesh-reader"
+        yield "chladni/chladni-mesher", folder / "libexec/chladni/chladni-mesher"
 
 
 def metadata(name):

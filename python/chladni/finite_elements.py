@@ -14,11 +14,11 @@ from chladni import _fe
 _PACKAGE = Path(__file__).parent
 
 
-def _name_mesh_reader() -> None:
+def _name_mesher() -> None:
     """The program that reads mesh files is beside the package, or in the folder of the build that it stands in."""
-    for reader in (_PACKAGE / "chladni-mesh-reader", _PACKAGE.parents[1] / "libexec/chladni/chladni-mesh-reader"):
+    for reader in (_PACKAGE / "chladni-mesher", _PACKAGE.parents[1] / "libexec/chladni/chladni-mesher"):
         if reader.exists():
-            os.environ.setdefault("CHLADNI_MESH_READER", str(reader))
+            os.environ.setdefault("CHLADNI_MESHER", str(reader))
 
 
 def make_body(scene, folder: str, progress) -> list[str]:
@@ -27,7 +27,7 @@ def make_body(scene, folder: str, progress) -> list[str]:
     Returns:
         what is to be told of the body, a line for each note
     """
-    _name_mesh_reader()
+    _name_mesher()
     return _fe.make_body(scene.text, scene.path, folder, progress)
 
 

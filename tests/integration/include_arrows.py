@@ -25,6 +25,7 @@ ALLOWED = {
     "confinement": ("common",),
     "mesh": ("common", "confinement", "files", "mesh/decks", "mesh/exchange"),
     "mesh/decks": ("common", "mesh"),
+    "mesh/gmsh": ("common", "confinement", "mesh", "mesh/decks", "mesh/exchange"),
     "mesh/exchange": ("common", "files", "mesh", "mesh/decks"),
     "plate": ("common", "mesh"),
     "plate/elements": ("common", "mesh", "plate"),
@@ -53,13 +54,14 @@ ALLOWED = {
                      "squeal/stability", "squeal/transient"),
     "brake_fmu": (*BODIES, "fmu", "squeal/brake", "squeal/motion", "squeal"),
     "squeal/study": (*BODIES, "squeal/"),
-    "sound": (*BODIES, "squeal/"),
+    "sound": (*BODIES, "squeal/", "confinement"),
+    "sound/gmsh": ("common", "sound"),
     "scene": ("common",),  # and OPTIONS
     "report": (*BODIES, "squeal/", "scene/"),
     "report/fe": (*BODIES, "squeal/", "sound", "mesh", "plate/", "scene/", "report/"),
     "cases": (*MODELS, "scene/", "report/"),
     "cases/squeal": (*BODIES, "squeal/", "brake_fmu", "scene/", "report"),
-    "cli": (*MODELS, "scene/", "report/", "cases/"),
+    "cli": (*MODELS, "scene/", "report/", "cases/"),  # and MESHER
     "python": (*MODELS, "scene/", "report/", "cases/"),
 }
 # The scene knows the options of all libraries: plain structs, which include nothing of theirs.
@@ -71,10 +73,9 @@ CUTS = {
     "fmu": (*HEAVY, "fmt", "hdf5", "files"),  # runs in programs of others, where none of it is
     "brake_fmu": (*HEAVY, "fmt", "hdf5", "files"),
     "linear/dense": HEAVY,
-    "linear": ("gmsh.h",),
-    "reduce": ("gmsh.h", "metis.h"),
-    "cyclic": ("gmsh.h", "metis.h"),
-    "plugin": ("gmsh.h", "metis.h"),
+    "reduce": ("metis.h",),
+    "cyclic": ("metis.h",),
+    "plugin": ("metis.h",),
     "mbs_export": HEAVY,
     "squeal": HEAVY,
     "scene": HEAVY,
@@ -83,8 +84,9 @@ CUTS = {
     # The sound field needs complex equations and a mesh of the air, not the body's elements.
     "sound": ("common/petsc", "common/all_ranks", "common/index_sets", "petsc", "slepc", "dmumps"),
 }
-# One source of the folder knows this header.
-ONLY_IN = {"sound": ("gmsh.h", "mesh_air.cpp")}
+# One program knows Gmsh, which is slow to load: these rooms are linked to nothing else.
+OF_GMSH = ("mesh/gmsh", "sound/gmsh")
+MESHER = ("cli", "mesher_main.cpp", ("confinement", *OF_GMSH))
 # These cost the compiler up to a minute in each source; they are compiled once behind this header, for all who may include it.
 SOLVERS = ("Eigen/Eigenvalues", "Eigen/SVD", "Eigen/Dense")
 COMPILED_ONCE = "linear/dense/dense_solvers.hpp"
@@ -103,10 +105,13 @@ def is_allowed(room, header, name=""):
         return False
     if header in SOLVERS and name != Path(COMPILED_ONCE).name and is_allowed(room, COMPILED_ONCE):
         return False
-    only, source = ONLY_IN.get(folder, ("", ""))
-    if only and header == only and name != source:
-        return False
+    if header.startswith("gmsh.h"):
+        return room in OF_GMSH
     target = room_of(header, ALLOWED)
+    if (room, name) == MESHER[:2] and target in MESHER[2]:
+        return True
+    if target in OF_GMSH and target != room:
+        return False
     if target in (None, room) or (room == "scene" and OPTIONS.match(header)):
         return True
     return any(target == a or (a.endswith("/") and (target + "/").startswith(a)) for a in ALLOWED[room])

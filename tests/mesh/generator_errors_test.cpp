@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <functional>
 
 #include "common/error.hpp"
@@ -108,6 +109,39 @@ TEST(Rings, SayHowManyOfTheirNodesAreThere)
   const std::string error = error_of([&] { add_rings(mesh, std::span(&ring, 1)); });
   EXPECT_NE(error.find("7 of its 8 nodes are there"), std::string::npos) << error;
   EXPECT_NE(error.find("angle 90 degrees"), std::string::npos) << error;
+}
+
+/// Another program in the place of the mesher.
+class OtherMesher {
+ public:
+  explicit OtherMesher(const char* program) { setenv("CHLADNI_MESHER", program, 1); }
+  ~OtherMesher() { unsetenv("CHLADNI_MESHER"); }
+  OtherMesher(const OtherMesher&) = delete;
+  OtherMesher& operator=(const OtherMesher&) = delete;
+};
+
+TEST(Mesher, ThatGivesNoAnswerIsASentence)
+{
+  const auto triangles = [] {
+    rectangle({.length = 1.0, .width = 1.0, .element_size = 0.5, .pattern = Pattern::triangles});
+  };
+  const OtherMesher crashing("/bin/false");
+  const std::string error = error_of(triangles);
+  EXPECT_NE(error.find("Gmsh crashed on the mesh that [mesh] describes (exit code 1)"),
+            std::string::npos)
+      << error;
+  // Rows and columns need none.
+  EXPECT_EQ(error_of([] { rectangle({.length = 1.0, .width = 1.0, .element_size = 0.5}); }),
+            "no error");
+}
+
+TEST(Mesher, ThatIsNotThereIsAnError)
+{
+  const OtherMesher missing("/no/such/mesher");
+  const std::string error = error_of([] {
+    rectangle({.length = 1.0, .width = 1.0, .element_size = 0.5, .pattern = Pattern::triangles});
+  });
+  EXPECT_NE(error.find("/no/such/mesher"), std::string::npos) << error;
 }
 
 }  // namespace

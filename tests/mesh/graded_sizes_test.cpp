@@ -1,4 +1,4 @@
-#include "mesh/graded_sizes.hpp"
+#include "mesh/gmsh/graded_sizes.hpp"
 
 #include <gtest/gtest.h>
 

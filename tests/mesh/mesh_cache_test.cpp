@@ -71,6 +71,31 @@ TEST_F(MeshCache, IsUsedByGenerators)
   EXPECT_EQ(files().size(), 1);
 }
 
+TEST_F(MeshCache, FindsNoMeshOfAnotherGmsh)
+{
+  write("libgmsh.so", "one version");
+  int n_made = 0;
+  const auto make = [&] {
+    ++n_made;
+    MeshOptions without = disc(0.03);
+    without.cache.reset();
+    Mesh mesh = draft(without);
+    EXPECT_TRUE(fs::exists(mesh.made_by)) << mesh.made_by;
+    EXPECT_NE(mesh.made_by.find("libgmsh"), std::string::npos);
+    mesh.made_by = path("libgmsh.so");
+    return mesh;
+  };
+  kept_mesh(disc(0.03), make);
+  kept_mesh(disc(0.03), make);
+  EXPECT_EQ(n_made, 1);
+  write("libgmsh.so", "another version");
+  kept_mesh(disc(0.03), make);
+  EXPECT_EQ(n_made, 2);
+  fs::remove(path("libgmsh.so"));
+  kept_mesh(disc(0.03), make);
+  EXPECT_EQ(n_made, 3);
+}
+
 TEST_F(MeshCache, FindsNoMeshOfOtherOptions)
 {
   made(disc(0.03));

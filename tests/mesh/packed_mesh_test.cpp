@@ -12,13 +12,14 @@
 namespace chladni::mesh {
 namespace {
 
-Mesh disc()
+const Mesh& disc()
 {
-  return annulus({.inner_radius = 0.1,
-                  .outer_radius = 0.2,
-                  .element_size = 0.05,
-                  .element_order = 2,
-                  .rings = {}});
+  static const Mesh made = annulus({.inner_radius = 0.1,
+                                    .outer_radius = 0.2,
+                                    .element_size = 0.05,
+                                    .element_order = 2,
+                                    .rings = {}});
+  return made;
 }
 
 std::vector<char> packed(const Mesh& mesh)
@@ -103,6 +104,63 @@ TEST(PackedMesh, OfDamagedBytesIsRefusedOrAMesh)
     } catch (const Error&) {
     }
   }
+}
+
+MeshOptions unpacked_options(const std::vector<char>& bytes)
+{
+  Unpacker unpacker(bytes);
+  MeshOptions options = unpack_options(unpacker);
+  EXPECT_TRUE(unpacker.at_end());
+  return options;
+}
+
+std::vector<char> packed(const MeshOptions& options)
+{
+  Packer packer;
+  pack(packer, options);
+  return packer.bytes();
+}
+
+/// Every number is another one, so that two that are exchanged show.
+std::vector<MeshOptions> options_of_all_kinds()
+{
+  const std::vector<RingOptions> rings{{.name = "a", .radius = 0.31, .nodes = 32, .z = 0.33},
+                                       {.name = "b", .radius = 0.34, .nodes = 35}};
+  return {{.annulus = AnnulusOptions{0.11, 0.12, 0.13, 4, rings, Pattern::triangles, 0.14, 15}},
+          {.hat_disc = HatDiscOptions{0.11, 0.12, 0.13, 0.14, 0.15, 0.16, 0.17, 0.18, 2, rings,
+                                      Pattern::unstructured, 0.19, BoltOptions{5, 0.21, 0.22}, 3}},
+          {.pad = PadOptions{0.11, 0.12, 0.13, 0.14, 0.15, 2, Pattern::triangles, 0.16}},
+          {.rectangle = RectangleOptions{0.11, 0.12, 0.13, 4, Pattern::unstructured, 0.14}},
+          {.beam = BeamMeshOptions{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}, 7, 0.8, {{"p", 0.9}}, 2}},
+          {.file = "disc.geo",
+           .element_order = 2,
+           .element_size = 0.1,
+           .size_factor = 0.2,
+           .sizes = {{{0.3, 0.4, 0.5}, 0.6}},
+           .parameters = {{"h", 0.7}},
+           .length_unit = 0.001,
+           .groups = {{"g", {"surface_1", "surface_2"}}},
+           .rings = rings,
+           .line_groups = {"l"},
+           .shell_groups = {"s", "t"}}};
+}
+
+TEST(PackedOptions, AreTheOptions)
+{
+  for (const MeshOptions& options : options_of_all_kinds()) {
+    const std::vector<char> bytes = packed(options);
+    EXPECT_EQ(packed(unpacked_options(bytes)), bytes);
+  }
+  const MeshOptions disc = unpacked_options(packed(options_of_all_kinds()[0]));
+  ASSERT_TRUE(disc.annulus.has_value());
+  EXPECT_EQ(disc.annulus->outer_radius, 0.12);
+  EXPECT_EQ(disc.annulus->rings[0].z, 0.33);
+  EXPECT_EQ(disc.annulus->rings[1].z, std::nullopt);
+  EXPECT_EQ(disc.annulus->pattern, Pattern::triangles);
+  EXPECT_EQ(disc.annulus->sectors, 15);
+  EXPECT_FALSE(disc.hat_disc.has_value());
+  const MeshOptions hat = unpacked_options(packed(options_of_all_kinds()[1]));
+  EXPECT_EQ(hat.hat_disc.value().bolts.value().hole_radius, 0.22);
 }
 
 }  // namespace

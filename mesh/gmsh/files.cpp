@@ -1,4 +1,4 @@
-#include "mesh/gmsh_files.hpp"
+#include "mesh/gmsh/files.hpp"
 
 #include <fmt/format.h>
 #include <gmsh.h>

@@ -5,9 +5,9 @@
 #include <array>
 
 #include "common/error.hpp"
-#include "mesh/circles.hpp"
-#include "mesh/entity_groups.hpp"
-#include "mesh/gmsh_files.hpp"
+#include "mesh/gmsh/circles.hpp"
+#include "mesh/gmsh/entity_groups.hpp"
+#include "mesh/gmsh/files.hpp"
 
 namespace chladni::mesh {
 

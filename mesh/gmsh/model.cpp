@@ -1,5 +1,6 @@
-#include "mesh/gmsh_model.hpp"
+#include "mesh/gmsh/model.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <gmsh.h>
 
@@ -10,7 +11,7 @@
 
 #include "common/error.hpp"
 #include "mesh/complete_elements.hpp"
-#include "mesh/silent_output.hpp"
+#include "mesh/gmsh/silent_output.hpp"
 #include "mesh/split_quadrilaterals.hpp"
 
 namespace chladni::mesh {
@@ -238,6 +239,14 @@ void note_what_is_left_out(Mesh& mesh)
   }
 }
 
+/// The file of Gmsh's library.
+std::string path_of_gmsh()
+{
+  void* function = dlsym(RTLD_DEFAULT, "gmshInitialize");  // of its interface to C
+  Dl_info home{};
+  return function != nullptr && dladdr(function, &home) != 0 ? home.dli_fname : "";
+}
+
 Mesh current_model(const std::vector<std::string>& line_groups)
 {
   Mesh mesh;
@@ -268,7 +277,9 @@ Mesh mesh_with_gmsh(const std::function<void()>& build, int order,
       gmsh::model::mesh::generate(2);
       if (order > 1) gmsh::model::mesh::setOrder(order);
     }
-    return split_flat_corners(current_model(line_groups));
+    Mesh mesh = split_flat_corners(current_model(line_groups));
+    mesh.made_by = path_of_gmsh();
+    return mesh;
   } catch (const Error&) {
     throw;
   } catch (const std::exception& e) {

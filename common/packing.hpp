@@ -12,7 +12,7 @@
 #include "common/error.hpp"
 
 /// Values as a sequence of bytes, between processes of one program on one machine.
-namespace chladni::mesh {
+namespace chladni {
 
 /// Writes values to a sequence of bytes.
 class Packer {
@@ -47,6 +47,13 @@ class Packer {
   {
     (*this)(value.has_value());
     if (value) (*this)(*value);
+  }
+  /// Writes a value that is there by `transfer(packer, value)`.
+  template <typename T>
+  void optional(const std::optional<T>& value, auto&& transfer)
+  {
+    (*this)(value.has_value());
+    if (value) transfer(*this, *value);
   }
   const std::vector<char>& bytes() const { return bytes_; }
 
@@ -106,6 +113,14 @@ class Unpacker {
     value.reset();
     if (is_there) (*this)(value.emplace());
   }
+  template <typename T>
+  void optional(std::optional<T>& value, auto&& transfer)
+  {
+    bool is_there = false;
+    (*this)(is_there);
+    value.reset();
+    if (is_there) transfer(*this, value.emplace());
+  }
   bool at_end() const { return next_ == end_; }
 
  private:
@@ -123,10 +138,10 @@ class Unpacker {
     if (n > 0) std::memcpy(to, next_, n);
     next_ += n;
   }
-  [[noreturn]] static void refuse() { throw Error("the bytes of a mesh are not whole"); }
+  [[noreturn]] static void refuse() { throw Error("the bytes of another process are not whole"); }
 
   const char* next_;
   const char* end_;
 };
 
-}  // namespace chladni::mesh
+}  // namespace chladni

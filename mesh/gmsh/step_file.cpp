@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "common/error.hpp"
-#include "mesh/entity_groups.hpp"
-#include "mesh/gmsh_files.hpp"
+#include "mesh/gmsh/entity_groups.hpp"
+#include "mesh/gmsh/files.hpp"
 
 namespace chladni::mesh {
 

@@ -1,3 +1,5 @@
+#include "mesh/gmsh/read_file.hpp"
+
 #include <fmt/format.h>
 #include <gmsh.h>
 
@@ -10,11 +12,10 @@
 #include "mesh/decks/read_deck.hpp"
 #include "mesh/exchange/is_exchange.hpp"
 #include "mesh/exchange/read_exchange.hpp"
-#include "mesh/gmsh_files.hpp"
-#include "mesh/gmsh_model.hpp"
-#include "mesh/graded_sizes.hpp"
-#include "mesh/mesh_reader.hpp"
-#include "mesh/silent_output.hpp"
+#include "mesh/gmsh/files.hpp"
+#include "mesh/gmsh/graded_sizes.hpp"
+#include "mesh/gmsh/model.hpp"
+#include "mesh/gmsh/silent_output.hpp"
 
 namespace chladni::mesh {
 
@@ -98,7 +99,7 @@ void scale(Mesh& mesh, double metres)
 
 }  // namespace
 
-Mesh read_here(const MeshOptions& options, const std::function<void()>& before_reading)
+Mesh read_file(const MeshOptions& options, const std::function<void()>& before_reading)
 {
   const Format format = format_of(*options.file);
   if (format == Format::deck || format == Format::exchange) {

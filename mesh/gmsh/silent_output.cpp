@@ -1,4 +1,4 @@
-#include "mesh/silent_output.hpp"
+#include "mesh/gmsh/silent_output.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "mesh/circles.hpp"
+#include "mesh/gmsh/circles.hpp"
 
 #include <gmsh.h>
 
