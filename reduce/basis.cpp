@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "linear/machine_memory.hpp"
 #include "reduce/certify.hpp"
 #include "reduce/held_masters.hpp"
 #include "reduce/mixed_interface.hpp"
@@ -46,6 +47,7 @@ FixedInterfaceModes modes_to_tolerance(const FactoredBody& body, Mat Psi,
     search.find_modes();
     phases.begin("choice of modes");
   } while (!search.is_enough());
+  linear::give_back_freed();  // what the trials took, before the modes take as much again
   phases.begin("fixed-interface modes");
   return search.modes();
 }

@@ -43,6 +43,13 @@ class CountPlan {
   MPI_Comm comm_;
 };
 
+/// Whether counts are cheap enough to be made unasked, by their predicted share of the work.
+inline constexpr double cheap_share_of_counts = 0.1;
+
+/// Predicted share of the counts in the work of a reduction, 0 to 1.
+double share_of_counts(const linear::FactorSize& factor, double n_slaves, double n_masters,
+                       double n_modes);
+
 /// Memory of the elimination that counts eigenvalues and keeps no columns, in multiples of the
 /// entries of a factor of K_ss. If MUMPS has to count, with pivoting, a kept factor and copies of
 /// the matrix, it needs 4.4 times the entries; whether it has to is not known in advance.

@@ -16,24 +16,29 @@ CountPlan::CountPlan(const FactoredBody& body, const ReductionOptions& options)
   n_slaves_ = static_cast<double>(n);
 }
 
-double CountPlan::share(PetscInt n_modes) const
+double share_of_counts(const linear::FactorSize& factor, double n_slaves, double n_masters,
+                       double n_modes)
 {
   // Two counts are made, each by an order, an elimination without a factor and K - sigma M, which
   // together take two to three times as long as the operations of a factor do. Block Lanczos takes
   // 3.2 vectors for each mode.
   constexpr double of_both_counts = 5.0, vectors_for_mode = 3.2;
   const double n_vectors = vectors_for_mode * n_modes;
-  const double solutions = 4.0 * factor_.entries * (0.5 * n_masters_ + n_vectors + n_modes);
-  const double products = n_slaves_ * (n_masters_ * n_masters_ + 2.0 * n_masters_ * n_modes +
-                                       2.0 * n_vectors * n_vectors);
-  const double count = of_both_counts * factor_.operations;
-  return count / (count + factor_.operations + solutions + products);
+  const double solutions = 4.0 * factor.entries * (0.5 * n_masters + n_vectors + n_modes);
+  const double products =
+      n_slaves * (n_masters * n_masters + 2.0 * n_masters * n_modes + 2.0 * n_vectors * n_vectors);
+  const double count = of_both_counts * factor.operations;
+  return count / (count + factor.operations + solutions + products);
+}
+
+double CountPlan::share(PetscInt n_modes) const
+{
+  return share_of_counts(factor_, n_slaves_, n_masters_, n_modes);
 }
 
 bool CountPlan::is_wanted(PetscInt n_modes) const
 {
-  constexpr double cheap = 0.1;
-  return count_.value_or(share(n_modes) < cheap);
+  return count_.value_or(share(n_modes) < cheap_share_of_counts);
 }
 
 bool CountPlan::is_possible() const

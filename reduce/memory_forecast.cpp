@@ -1,6 +1,7 @@
 #include "reduce/memory_forecast.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,26 @@ double modes_at_first(const ReduceOptions& wanted)
   if (wanted.method == Method::guyan) return 0.0;
   constexpr double of_a_search = 50.0;
   return wanted.modes ? *wanted.modes : of_a_search;
+}
+
+/// Of the factor of a shell of n DOFs before its analysis, as discs of 70,000 to a million DOFs
+/// have it.
+linear::FactorSize usual_size(double n)
+{
+  const double entries = n * std::max(1.0, 19.2 * std::log(n) - 107.0);
+  const double operations = entries * entries / n * std::max(1.0, 0.58 * std::log(n) - 4.9);
+  return {.operations = operations, .entries = entries};
+}
+
+/// Whether eigenvalues may be counted where the options do not say; the factor alone tells surely.
+bool may_count(const ReductionOptions& options, double n_slaves, double n_masters)
+{
+  const ReduceOptions& basis = options.basis;
+  if (basis.method != Method::guyan && !basis.modes) return true;  // K and M wait for the search
+  const double n_modes = basis.method == Method::guyan ? 0.0 : *basis.modes;
+  constexpr double sure = 2.0;
+  return share_of_counts(usual_size(n_slaves), n_slaves, n_masters, n_modes) <
+         sure * cheap_share_of_counts;
 }
 
 }  // namespace
@@ -109,9 +130,7 @@ MemoryForecast::MemoryForecast(const Body& body, const Blocks& K, const Blocks& 
   }
   const bool may_let_go =
       !needs_matrices(options, options.count.value_or(false)) && !lets_matrices_go_at_once(options);
-  // Whether a count that nobody asked for is made, and needs K and M, the factor will tell.
-  const double likely = options.count ? 1.0 : 0.5;
-  let_go_MiB_ = may_let_go ? likely * (K_MiB_ + M_MiB_) : 0.0;
+  let_go_MiB_ = may_let_go && !may_count(options, n_slaves_, n_masters_) ? K_MiB_ + M_MiB_ : 0.0;
   columns_at_a_time_ = linear::columns_at_a_time(K.ss);
   in_memory_ = solver.scratch.empty() ? 1.0 : 0.0;
 }
