@@ -90,8 +90,8 @@ Attachments find_attachments(const mesh::Mesh& mesh, const plate::DofMap& dofs,
   }
   add_node_masters(attachments, dofs);
   add_ring_masters(attachments, dofs);
-  const Eigen::MatrixX3d axes = plate::drilling_axes(mesh, dofs);
-  for (const int node : attachments.nodes) attachments.drilling_axes.push_back(axes.row(node));
+  const Eigen::MatrixX3d axes = plate::drilling_axes(mesh, dofs, attachments.nodes);
+  for (Index i = 0; i < axes.rows(); ++i) attachments.drilling_axes.push_back(axes.row(i));
   return attachments;
 }
 

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstdlib>
+#include <sstream>
 
 #include "common/error.hpp"
 #include "confinement/confine.hpp"
@@ -24,6 +25,16 @@ std::string variable_of(std::string name)
     return c == '-' ? '_' : static_cast<char>(std::toupper(c));
   });
   return name;
+}
+
+std::vector<fs::path> folders_of_path()
+{
+  const char* said = std::getenv("PATH");
+  std::istringstream all(said == nullptr ? "" : said);
+  std::vector<fs::path> folders;
+  for (std::string folder; std::getline(all, folder, ':');)
+    if (fs::path(folder).is_absolute()) folders.emplace_back(folder);
+  return folders;
 }
 
 std::vector<char> read_question()
@@ -58,13 +69,17 @@ fs::path helper(const std::string& name)
   if (const char* said = std::getenv(variable.c_str())) return said;
   std::error_code ignored;
   const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  const std::array<fs::path, 2> folders{(here / "../libexec/chladni").lexically_normal(),
-                                        CHLADNI_LIBEXEC_FOLDER / fs::path("chladni")};
+  const fs::path beside = (here / "../libexec/chladni").lexically_normal();
+  const fs::path installed = CHLADNI_LIBEXEC_FOLDER / fs::path("chladni");
+  std::vector<fs::path> folders{beside, installed};
+  for (const fs::path& programs : folders_of_path())
+    folders.push_back(programs / "../libexec/chladni");
   for (const fs::path& folder : folders)
     if (fs::exists(folder / name, ignored)) return folder / name;
   throw Error(
-      fmt::format("the program {} is neither in {} nor in {}; install it, or set {} to its path",
-                  name, folders[0].string(), folders[1].string(), variable));
+      fmt::format("the program {} is neither in {} nor in {}, nor does PATH have the folder of the "
+                  "chladni that it belongs to; install it, or set {} to its path",
+                  name, beside.string(), installed.string(), variable));
 }
 
 void ask(const Errand& errand, const std::function<std::string(const Outcome&)>& explain,

@@ -13,8 +13,9 @@ namespace chladni::confinement {
 /// The helper that works with Gmsh.
 inline constexpr const char* mesher = "chladni-mesher";
 
-/// The path of a helper such as `mesher`: beside this program as both are built and
-/// installed, or where the environment says (CHLADNI_MESHER).
+/// The path of a helper such as `mesher`: where the environment says (CHLADNI_MESHER), else beside
+/// this program as both are built and installed, where this library was to be installed, or beside
+/// the programs of PATH.
 /// @throws chladni::Error when there is none.
 std::filesystem::path helper(const std::string& name);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/all_ranks.hpp"
 #include "common/checked_count.hpp"
 #include "plate/assembly/block_rows.hpp"
 #include "plate/assembly/element_motion.hpp"
@@ -37,6 +38,17 @@ petsc::Matrix damping_matrix(std::span<const PointElement> points, const DofMap&
   return C.to_matrix(comm);
 }
 
+/// The nodes of the elements that this rank assembles; empty for all.
+NodeMask own_nodes(const mesh::Mesh& mesh, const DofMap& dofs, MPI_Comm comm)
+{
+  if (petsc::size(comm) == 1) return {};
+  NodeMask are_own(std::size_t(mesh.n_nodes()), 0);
+  for_owned_elements(mesh, dofs, petsc::rank(comm), [&](const auto& block, int e, const auto&) {
+    for (const int node : block.element_nodes(e)) are_own[std::size_t(node)] = 1;
+  });
+  return are_own;
+}
+
 }  // namespace
 
 System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs, MPI_Comm comm)
@@ -45,7 +57,8 @@ System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs,
   checked_count(std::int64_t{dofs.n_active()} * dofs.n_components(), "DOFs", "use a coarser mesh");
   const SectionMap sections = map_sections(mesh, structure);
   const std::vector<PointElement> points = point_elements(mesh, structure, dofs);
-  const NodeVectors normals = mean_normals(mesh);
+  const NodeVectors normals =
+      on_all_ranks(comm, [&] { return mean_normals(mesh, own_nodes(mesh, dofs, comm)); });
   const BlockPattern pattern = element_pattern(mesh, points, dofs, rank);
   const bool is_lossy = has_loss_factors(structure);
   BlockRows K(pattern), M(pattern), H(pattern);

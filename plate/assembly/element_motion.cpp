@@ -94,6 +94,14 @@ std::vector<PetscInt> active_numbers(const DofMap& dofs, std::span<const int> no
   return numbers;
 }
 
+bool may_depend_on(const DofMap& dofs, std::span<const int> nodes, int first, int last)
+{
+  return std::ranges::any_of(nodes, [&](int node) {
+    const int number = dofs.number(node);
+    return (number >= first && number < last) || !dofs.is_plain(node);
+  });
+}
+
 ElementMotion element_motion(const DofMap& dofs, std::span<const int> nodes,
                              const NodeVectors& arms)
 {

@@ -46,6 +46,9 @@ BlockPattern element_pattern(const mesh::Mesh& mesh, std::span<const PointElemen
 /// The pattern of a rank with the point elements alone.
 BlockPattern point_pattern(std::span<const PointElement> points, const DofMap& dofs, int rank);
 
+/// Whether an element with these nodes may depend on a number from `first` to before `last`.
+bool may_depend_on(const DofMap& dofs, std::span<const int> nodes, int first, int last);
+
 /// Calls visit(block, element, its active numbers) for each element that depends on a number that
 /// this rank owns.
 template <typename Visit>
@@ -55,6 +58,7 @@ void for_owned_elements(const mesh::Mesh& mesh, const DofMap& dofs, int rank, co
   const int last = dofs.first_number(rank + 1);
   for (const mesh::ElementBlock& block : mesh.blocks) {
     for (int e = 0; e < block.n_elements(); ++e) {
+      if (!may_depend_on(dofs, block.element_nodes(e), first, last)) continue;
       const std::vector<PetscInt> numbers = active_numbers(dofs, block.element_nodes(e));
       const auto owned = std::ranges::lower_bound(numbers, first);
       if (owned != numbers.end() && *owned < last) visit(block, e, numbers);

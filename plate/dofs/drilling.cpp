@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -133,19 +134,30 @@ std::optional<std::pair<std::string, int>> first_drilling_support(const mesh::Me
 
 }  // namespace
 
-MatrixX3d drilling_axes(const mesh::Mesh& mesh, const DofMap& dofs)
+MatrixX3d drilling_axes(const mesh::Mesh& mesh, const DofMap& dofs, std::span<const int> nodes)
 {
-  MatrixX3d axes = MatrixX3d::Zero(dofs.n_nodes(), 3);
-  const NodeVectors normals = smooth_normals(mesh);
+  MatrixX3d axes = MatrixX3d::Zero(std::ssize(nodes), 3);
+  NodeMask wanted(std::size_t(mesh.n_nodes()), 0);
+  for (const int node : nodes)
+    if (node < dofs.n_mesh_nodes()) wanted[std::size_t(node)] = 1;
+  const NodeVectors normals = smooth_normals(mesh, std::move(wanted));
   const std::vector<bool> is_other = have_other_stiffness(mesh, dofs);
-  for (int node = 0; node < dofs.n_mesh_nodes(); ++node) {
-    if (is_other[node]) continue;
+  for (Eigen::Index i = 0; i < axes.rows(); ++i) {
+    const int node = nodes[std::size_t(i)];
+    if (node >= dofs.n_mesh_nodes() || is_other[node]) continue;
     const Vector3d n = normals.row(node);
     int nearest = 0;
     n.cwiseAbs().maxCoeff(&nearest);
-    if (std::ranges::binary_search(dofs.components(), 3 + nearest)) axes.row(node) = n;
+    if (std::ranges::binary_search(dofs.components(), 3 + nearest)) axes.row(i) = n;
   }
   return axes;
+}
+
+MatrixX3d drilling_axes(const mesh::Mesh& mesh, const DofMap& dofs)
+{
+  std::vector<int> all(std::size_t(dofs.n_nodes()));
+  std::iota(all.begin(), all.end(), 0);
+  return drilling_axes(mesh, dofs, all);
 }
 
 void refuse_drilling(const mesh::Mesh& mesh, const DofMap& dofs, const Structure& structure)

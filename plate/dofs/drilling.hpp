@@ -17,6 +17,9 @@ namespace chladni::plate {
 /// motion is that of a coupling, or the nodes have no such component.
 /// @return [n_nodes x 3], for the nodes of the DofMap
 Eigen::MatrixX3d drilling_axes(const mesh::Mesh& mesh, const DofMap& dofs);
+/// Those of some nodes alone, one row each.
+Eigen::MatrixX3d drilling_axes(const mesh::Mesh& mesh, const DofMap& dofs,
+                               std::span<const int> nodes);
 
 /// Checks that no lumped mass has inertia and no spring or damper acts about a drilling axis.
 /// @throws chladni::Error naming the node, the rotation and what to do.

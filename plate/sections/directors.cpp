@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -86,43 +87,65 @@ NodeVectors element_positions(const mesh::Mesh& mesh, const mesh::ElementBlock& 
   return x;
 }
 
-NodeVectors mean_normals(const mesh::Mesh& mesh)
+namespace {
+
+/// Both nodes of a pair on the cut edges of a sector, where one is wanted.
+NodeMask with_partners(const mesh::Mesh& mesh, NodeMask wanted)
 {
-  NodeVectors sum = NodeVectors::Zero(mesh.n_nodes(), 3);
+  if (wanted.empty()) return NodeMask(std::size_t(mesh.n_nodes()), 1);
+  for (const auto& [low, high] : mesh.sectors.pairs)
+    if (wanted[low] != 0 || wanted[high] != 0) wanted[low] = wanted[high] = 1;
+  return wanted;
+}
+
+/// Calls visit(node, its normal in the element) for the nodes that are wanted, after
+/// check(block, element, normals).
+template <typename Check, typename Visit>
+void for_normals(const mesh::Mesh& mesh, const NodeMask& wanted, const Check& check,
+                 const Visit& visit)
+{
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (block.shape == mesh::Shape::line) continue;
     const Basis at_nodes = nodal_basis(block);
     for (int e = 0; e < block.n_elements(); ++e) {
+      const auto nodes = block.element_nodes(e);
+      if (std::ranges::none_of(nodes, [&](int node) { return wanted[node] != 0; })) continue;
       const NodeVectors normals = element_normals(at_nodes, element_positions(mesh, block, e));
-      check_normals(mesh, block, e, normals);
-      for (Index i = 0; i < normals.rows(); ++i) {
-        auto node_sum = sum.row(block.element_nodes(e)[i]);
-        const double side = node_sum.dot(normals.row(i)) < 0.0 ? -1.0 : 1.0;
-        node_sum += side * normals.row(i);
-      }
+      check(block, e, normals);
+      for (Index i = 0; i < normals.rows(); ++i)
+        if (wanted[nodes[i]] != 0) visit(nodes[i], normals.row(i));
     }
   }
+}
+
+}  // namespace
+
+NodeVectors mean_normals(const mesh::Mesh& mesh, NodeMask wanted)
+{
+  NodeVectors sum = NodeVectors::Zero(mesh.n_nodes(), 3);
+  const auto check = [&](const mesh::ElementBlock& block, int e, const NodeVectors& normals) {
+    check_normals(mesh, block, e, normals);
+  };
+  for_normals(mesh, with_partners(mesh, std::move(wanted)), check,
+              [&](int node, const RowVector3d& normal) {
+                auto node_sum = sum.row(node);
+                const double side = node_sum.dot(normal) < 0.0 ? -1.0 : 1.0;
+                node_sum += side * normal;
+              });
   add_over_sector_edges(mesh, sum);
   sum.rowwise().normalize();
   return sum;
 }
 
-NodeVectors smooth_normals(const mesh::Mesh& mesh)
+NodeVectors smooth_normals(const mesh::Mesh& mesh, NodeMask wanted)
 {
-  const NodeVectors mean = mean_normals(mesh);
+  const NodeVectors mean = mean_normals(mesh, wanted);
   NodeVectors smooth = mean;
-  for (const mesh::ElementBlock& block : mesh.blocks) {
-    if (block.shape == mesh::Shape::line) continue;
-    const Basis at_nodes = nodal_basis(block);
-    for (int e = 0; e < block.n_elements(); ++e) {
-      const NodeVectors normals = element_normals(at_nodes, element_positions(mesh, block, e));
-      for (Index i = 0; i < normals.rows(); ++i) {
-        const int node = block.element_nodes(e)[i];
-        if (!(std::abs(mean.row(node).dot(normals.row(i))) > smooth_cosine))
-          smooth.row(node).setZero();
-      }
-    }
-  }
+  if (wanted.empty()) wanted.assign(std::size_t(mesh.n_nodes()), 1);
+  const auto is_checked = [](const auto&...) {};
+  for_normals(mesh, wanted, is_checked, [&](int node, const RowVector3d& normal) {
+    if (!(std::abs(mean.row(node).dot(normal)) > smooth_cosine)) smooth.row(node).setZero();
+  });
   return smooth;
 }
 

@@ -42,7 +42,8 @@ def use_programs(prefix, folder):
 
 def use_libraries(prefix, folder, body):
     build_consumer(LIBRARY, folder / "all", prefix)
-    said = run(folder / "all/reduce_disc")
+    programs = {**os.environ, "PATH": f"{prefix / 'bin'}:{os.environ['PATH']}"}  # the mesher is looked for beside them
+    said = run(folder / "all/reduce_disc", env=programs)
     require("6 masters and 10 modes" in said, f"a C++ program on the FE libraries: {said.strip()}")
     said = run(folder / "all/brake", body)
     require("squeals from" in said, f"a C++ program on squeal: {said.strip()}")

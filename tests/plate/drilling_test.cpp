@@ -94,6 +94,22 @@ TEST(DrillingAxes, EndWhereTheShellIsFolded)
   }
 }
 
+TEST(DrillingAxes, OfSomeNodesAreTheirs)
+{
+  mesh::Mesh mesh = plate();
+  for (auto& x : mesh.positions)
+    if (x[0] > 1.0) x = {1.0, x[1], x[0] - 1.0};
+  const DofMap dofs = map_of(mesh, {{.name = "foot", .group = "left"}});
+  const Eigen::MatrixX3d all = drilling_axes(mesh, dofs);
+  std::vector<int> nodes{*dofs.reference_node("foot"), mesh.n_nodes() - 1};
+  for (int node = 0; node < mesh.n_nodes(); node += 3) nodes.push_back(node);
+  const Eigen::MatrixX3d some = drilling_axes(mesh, dofs, nodes);
+  ASSERT_EQ(some.rows(), std::ssize(nodes));
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    EXPECT_EQ(some.row(Eigen::Index(i)), all.row(nodes[i])) << nodes[i];
+  EXPECT_EQ(drilling_axes(mesh, dofs, {}).rows(), 0);
+}
+
 TEST(DrillingAxes, EndWhereOtherNodesFollow)
 {
   const mesh::Mesh mesh = plate();

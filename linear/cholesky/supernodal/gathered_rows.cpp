@@ -1,6 +1,7 @@
 #include "linear/cholesky/supernodal/gathered_rows.hpp"
 
 #include <numeric>
+#include <span>
 
 #include "linear/kernels/gather.hpp"
 
@@ -15,14 +16,23 @@ struct ByRank {
   std::vector<int> counts;
 };
 
+/// What came from all ranks, one after the other, in memory that nothing else has touched.
 template <typename T>
-ByRank<T> exchanged(const ByRank<T>& sent, MPI_Datatype type, MPI_Comm comm)
+struct Received {
+  std::unique_ptr<T[]> numbers;
+  std::vector<int> counts;
+
+  std::span<const T> all() const { return {numbers.get(), std::size_t(offsets(counts).back())}; }
+};
+
+template <typename T>
+Received<T> exchanged(const ByRank<T>& sent, MPI_Datatype type, MPI_Comm comm)
 {
-  ByRank<T> received{.numbers = {}, .counts = std::vector<int>(sent.counts.size())};
+  Received<T> received{.numbers = {}, .counts = std::vector<int>(sent.counts.size())};
   MPI_Alltoall(sent.counts.data(), 1, MPI_INT, received.counts.data(), 1, MPI_INT, comm);
   const std::vector<int> from = offsets(sent.counts), to = offsets(received.counts);
-  received.numbers.resize(std::size_t(to.back()));
-  MPI_Alltoallv(sent.numbers.data(), sent.counts.data(), from.data(), type, received.numbers.data(),
+  received.numbers = std::make_unique_for_overwrite<T[]>(std::size_t(to.back()));
+  MPI_Alltoallv(sent.numbers.data(), sent.counts.data(), from.data(), type, received.numbers.get(),
                 received.counts.data(), to.data(), type, comm);
   return received;
 }
@@ -75,14 +85,19 @@ void GatheredRows::gather(Mat A, const std::vector<PetscInt>& rows,
                           const std::vector<int>& position)
 {
   const MPI_Comm comm = petsc::communicator(A);
-  const ByRank<PetscInt> asked = exchanged(by_owner(A, rows), MPIU_INT, comm);
+  const Received<PetscInt> asked = exchanged(by_owner(A, rows), MPIU_INT, comm);
   ByRank<PetscInt> lengths{.numbers = {}, .counts = asked.counts};
   ByRank<PetscInt> columns{.numbers = {}, .counts = {}};
   ByRank<PetscScalar> values;
-  auto row = asked.numbers.begin();
+  MatInfo own{};
+  petsc::check(MatGetInfo(A, MAT_LOCAL, &own));
+  const auto n_own = static_cast<std::size_t>(own.nz_used);
+  columns.numbers.reserve(n_own);  // address space only: about half of it is used
+  values.numbers.reserve(n_own);
+  const PetscInt* row = asked.numbers.get();
   for (const int n_rows : asked.counts) {
     const std::size_t before = columns.numbers.size();
-    for (const auto last = row + n_rows; row != last; ++row) {
+    for (const PetscInt* last = row + n_rows; row != last; ++row) {
       PetscInt n = 0, n_kept = 0;
       const PetscInt* row_columns = nullptr;
       const PetscScalar* row_values = nullptr;
@@ -99,14 +114,15 @@ void GatheredRows::gather(Mat A, const std::vector<PetscInt>& rows,
     columns.counts.push_back(static_cast<int>(columns.numbers.size() - before));
   }
   values.counts = columns.counts;
-  const std::vector<PetscInt> n_entries = exchanged(lengths, MPIU_INT, comm).numbers;
+  const Received<PetscInt> of_rows = exchanged(lengths, MPIU_INT, comm);
+  const std::span<const PetscInt> n_entries = of_rows.all();
   starts_.assign(n_entries.size() + 1, 0);
   std::inclusive_scan(n_entries.begin(), n_entries.end(), starts_.begin() + 1);
   columns_ = exchanged(columns, MPIU_INT, comm).numbers;
   values_ = exchanged(values, MPIU_SCALAR, comm).numbers;
   rows_.starts = starts_.data();
-  rows_.columns = columns_.data();
-  rows_.values = values_.data();
+  rows_.columns = columns_.get();
+  rows_.values = values_.get();
 }
 
 GatheredRows::~GatheredRows()

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "linear/cholesky/supernodal/fronts.hpp"
@@ -24,8 +25,9 @@ class GatheredRows {
   void gather(Mat A, const std::vector<PetscInt>& rows, const std::vector<int>& position);
 
   Mat borrowed_ = nullptr;
-  std::vector<PetscInt> starts_, columns_;
-  std::vector<PetscScalar> values_;
+  std::vector<PetscInt> starts_;
+  std::unique_ptr<PetscInt[]> columns_;
+  std::unique_ptr<PetscScalar[]> values_;
   MatrixRows rows_{};
 };
 
