@@ -48,6 +48,7 @@ class Packer {
     (*this)(value.has_value());
     if (value) (*this)(*value);
   }
+  void all(const auto&... values) { ((*this)(values), ...); }
   /// Writes a value that is there by `transfer(packer, value)`.
   template <typename T>
   void optional(const std::optional<T>& value, auto&& transfer)
@@ -113,6 +114,7 @@ class Unpacker {
     value.reset();
     if (is_there) (*this)(value.emplace());
   }
+  void all(auto&... values) { ((*this)(values), ...); }
   template <typename T>
   void optional(std::optional<T>& value, auto&& transfer)
   {

@@ -19,6 +19,7 @@
 #include "files/xxh64.hpp"
 #include "mesh/decks/is_deck.hpp"
 #include "mesh/packed_mesh.hpp"
+#include "mesh/packed_options.hpp"
 
 namespace chladni::mesh {
 

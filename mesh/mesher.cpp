@@ -17,6 +17,7 @@
 #include "mesh/decks/read_deck.hpp"
 #include "mesh/exchange/is_exchange.hpp"
 #include "mesh/packed_mesh.hpp"
+#include "mesh/packed_options.hpp"
 
 namespace chladni::mesh {
 namespace {

@@ -5,24 +5,19 @@ namespace {
 
 // The bindings name all members: who adds one is asked for it here.
 
-void transfer_all(auto& archive, auto&... values)
-{
-  (archive(values), ...);
-}
-
 void transfer_outline(auto& archive, auto& outline)
 {
   auto& [quadrilaterals, balls, holes, sheet_radius] = outline;
   archive.each(quadrilaterals, [](auto& a, auto& corners) {
-    for (auto& corner : corners) transfer_all(a, corner[0], corner[1]);
+    for (auto& corner : corners) a.all(corner[0], corner[1]);
   });
   archive.each(balls, [](auto& a, auto& ball) {
     auto& [z, radius] = ball;
-    transfer_all(a, z, radius);
+    a.all(z, radius);
   });
   archive.each(holes, [](auto& a, auto& of_circle) {
     auto& [circle_radius, radius, count, angle] = of_circle;
-    transfer_all(a, circle_radius, radius, count, angle);
+    a.all(circle_radius, radius, count, angle);
   });
   archive(sheet_radius);
 }
@@ -32,14 +27,14 @@ void transfer_question(auto& archive, auto& question)
   auto& [outline, options, dimension, centre] = question;
   transfer_outline(archive, outline);
   auto& [order, size, edge_size, growth, inner_radius, thickness, half_space] = options;
-  transfer_all(archive, order, size, edge_size, growth, inner_radius, thickness, half_space);
-  transfer_all(archive, dimension, centre);
+  archive.all(order, size, edge_size, growth, inner_radius, thickness, half_space);
+  archive.all(dimension, centre);
 }
 
 void transfer_air(auto& archive, auto& air)
 {
   auto& [order, n, reference, positions, elements] = air;
-  transfer_all(archive, order, n, reference, positions, elements);
+  archive.all(order, n, reference, positions, elements);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "mesh/gmsh/generators.hpp"
 #include "mesh/gmsh/read_file.hpp"
 #include "mesh/packed_mesh.hpp"
+#include "mesh/packed_options.hpp"
 
 namespace chladni::mesh {
 namespace {

@@ -11,7 +11,6 @@
 
 #include "common/error.hpp"
 #include "mesh/complete_elements.hpp"
-#include "mesh/gmsh/silent_output.hpp"
 #include "mesh/split_quadrilaterals.hpp"
 
 namespace chladni::mesh {
@@ -273,7 +272,6 @@ Mesh mesh_with_gmsh(const std::function<void()>& build, int order,
     set_meshing_options();
     build();
     if (order > 0 && n_elements(2) == 0) {
-      const SilentOutput silence;
       gmsh::model::mesh::generate(2);
       if (order > 1) gmsh::model::mesh::setOrder(order);
     }

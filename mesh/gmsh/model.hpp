@@ -9,7 +9,8 @@
 namespace chladni::mesh {
 
 /// Calls `build` in a Gmsh session with quadrilateral recombination, meshes the model in two
-/// dimensions if it has no elements yet, and returns the mesh. Gmsh prints nothing.
+/// dimensions if it has no elements yet, and returns the mesh. What Gmsh prints is not for the
+/// user.
 /// @param order        of the elements; 0 keeps that of the model
 /// @param line_groups  groups of curves whose elements are kept; other curves give groups of nodes
 ///                     only

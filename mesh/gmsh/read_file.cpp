@@ -15,7 +15,6 @@
 #include "mesh/gmsh/files.hpp"
 #include "mesh/gmsh/graded_sizes.hpp"
 #include "mesh/gmsh/model.hpp"
-#include "mesh/gmsh/silent_output.hpp"
 
 namespace chladni::mesh {
 
@@ -112,7 +111,6 @@ Mesh read_file(const MeshOptions& options, const std::function<void()>& before_r
   const double unit = format == Format::step ? 1e-3 : options.length_unit;
   std::vector<std::string> notes;
   const auto build = [&] {
-    [[maybe_unused]] const SilentOutput opened;
     before_reading();
     notes = open(options, format);
     set_local_sizes(options, unit);

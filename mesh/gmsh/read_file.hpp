@@ -8,8 +8,7 @@
 namespace chladni::mesh {
 
 /// Reads the mesh of a file in this process, in metres.
-/// @param before_reading  is called when Gmsh has opened the files it needs for itself: the
-///                        preferences of a toolkit, /dev/null
+/// @param before_reading  is called when Gmsh has opened the files it needs for itself
 /// @throws chladni::Error as `read_gmsh`.
 Mesh read_file(const MeshOptions& options, const std::function<void()>& before_reading);
 

@@ -1,5 +1,6 @@
 // Meshes that another process hands over, which may be in a stranger's hands.
 #include "mesh/packed_mesh.hpp"
+#include "mesh/packed_options.hpp"
 
 #include <gtest/gtest.h>
 
