@@ -66,8 +66,12 @@ bool say(const std::vector<char>& bytes)
 fs::path helper(const std::string& name)
 {
   const std::string variable = variable_of(name);
-  if (const char* said = std::getenv(variable.c_str())) return said;
   std::error_code ignored;
+  if (const char* said = std::getenv(variable.c_str())) {
+    if (fs::exists(said, ignored)) return said;
+    throw Error(fmt::format("{} names {}, which is not there; give the path of {}, or unset it",
+                            variable, said, name));
+  }
   const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();
   const fs::path beside = (here / "../libexec/chladni").lexically_normal();
   const fs::path installed = CHLADNI_LIBEXEC_FOLDER / fs::path("chladni");
