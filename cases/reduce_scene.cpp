@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "cases/chosen_mesh.hpp"
 #include "cases/described_system.hpp"
@@ -154,6 +155,13 @@ SceneReduction with_what_bodies_need(const scene::Scene& scene, const FeModel& f
   return reduced;
 }
 
+/// "; mesh through libgmsh.so.4.8", or nothing where this program made it.
+std::string maker(const mesh::Mesh& mesh)
+{
+  if (mesh.made_by.empty()) return "";
+  return fmt::format("; mesh through {}", std::filesystem::path(mesh.made_by).filename().string());
+}
+
 }  // namespace
 
 plate::Structure structure_of(const scene::Scene& scene)
@@ -176,8 +184,8 @@ mbs_export::Provenance provenance(const scene::Scene& scene, const SaidOfSolvers
   return {
       .scene = scene.text,
       .mesh_checksum = mesh::checksum(mesh),
-      .versions = fmt::format("Chladni {}; {}; Gmsh via its C++ API", report::version,
-                              reduce_export::library_versions()),
+      .versions = fmt::format("Chladni {}; {}{}", report::version,
+                              reduce_export::library_versions(), maker(mesh)),
       .options = solvers.text,
       .ranks = n_ranks(),
       .mesh_file_digest = scene.mesh.file ? files::file_digest(*scene.mesh.file) : std::string()};

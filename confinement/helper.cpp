@@ -61,6 +61,18 @@ bool say(const std::vector<char>& bytes)
   return true;
 }
 
+const std::string version = CHLADNI_VERSION;
+
+void require_same_version(Unpacker& question)
+{
+  std::string asking;
+  question(asking);
+  if (asking != version) {
+    throw Error(fmt::format("{} is of Chladni {}, but Chladni {} asks it; install both together",
+                            program_invocation_short_name, version, asking));
+  }
+}
+
 }  // namespace
 
 fs::path helper(const std::string& name)
@@ -89,7 +101,11 @@ fs::path helper(const std::string& name)
 void ask(const Errand& errand, const std::function<std::string(const Outcome&)>& explain,
          const std::function<void(Unpacker&)>& unpack)
 {
-  const Outcome outcome = run(errand);
+  Packer begin;
+  begin(version);
+  Errand sent = errand;
+  sent.question.insert(sent.question.begin(), begin.bytes().begin(), begin.bytes().end());
+  const Outcome outcome = run(sent);
   if (outcome.end != End::exited || outcome.code != 0) throw Error(explain(outcome));
   Unpacker answer(outcome.answer);
   bool is_there = false;
@@ -107,6 +123,7 @@ void serve(const std::function<void(Unpacker& question, Packer& answer)>& work)
   try {
     const std::vector<char> bytes = read_question();
     Unpacker question(bytes);
+    require_same_version(question);
     answer(true);
     work(question, answer);
   } catch (const Error& error) {

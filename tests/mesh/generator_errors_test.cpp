@@ -2,8 +2,10 @@
 
 #include <cstdlib>
 #include <functional>
+#include <string>
 
 #include "common/error.hpp"
+#include "confinement/helper.hpp"
 #include "generated.hpp"
 #include "mesh/rings.hpp"
 
@@ -142,6 +144,24 @@ TEST(Mesher, ThatIsNotThereIsAnError)
     rectangle({.length = 1.0, .width = 1.0, .element_size = 0.5, .pattern = Pattern::triangles});
   });
   EXPECT_NE(error.find("CHLADNI_MESHER names /no/such/mesher"), std::string::npos) << error;
+}
+
+TEST(Mesher, AskedByAnotherVersionSaysSo)
+{
+  Packer question;
+  question(std::string("0.0.1"));
+  const confinement::Outcome outcome =
+      confinement::run({.program = confinement::helper(confinement::mesher),
+                        .question = question.bytes(),
+                        .most_seconds = 60.0,
+                        .most_bytes = 1 << 20});
+  Unpacker answer(outcome.answer);
+  bool is_there = true;
+  std::string message;
+  answer.all(is_there, message);
+  EXPECT_FALSE(is_there);
+  EXPECT_NE(message.find("but Chladni 0.0.1 asks it; install both together"), std::string::npos)
+      << message;
 }
 
 }  // namespace

@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "mesh/generators.hpp"
 
@@ -42,6 +46,21 @@ Mesh with(const std::function<void(Mesh&)>& change)
   Mesh mesh = disc();
   change(mesh);
   return mesh;
+}
+
+TEST(Packing, OfAnotherKindIsRefused)
+{
+  Packer packer;
+  packer.all(1.0, std::vector<double>{1.0});
+  const auto unpack = [&]<typename... Kinds>(Kinds... values) {
+    Unpacker unpacker(packer.bytes());
+    unpacker.all(values...);
+  };
+  unpack(0.0, std::vector<double>{});
+  EXPECT_THROW(unpack(std::int64_t{0}, std::vector<double>{}), Error);
+  EXPECT_THROW(unpack(0.0, std::vector<std::int64_t>{}), Error);
+  EXPECT_THROW(unpack(0.0, std::string()), Error);
+  EXPECT_THROW(unpack(std::optional<double>{}, std::vector<double>{}), Error);
 }
 
 TEST(PackedMesh, IsTheMesh)

@@ -6,6 +6,7 @@ usage: layout.py [--check] SOURCE...    mends them in place; --check names those
   a macro of GoogleTest, which may hold an `else` of its own.
 - An algorithm takes a range: std::ranges::sort(x), not std::sort(x.begin(), x.end()).
 """
+import os
 import re
 import subprocess
 import sys
@@ -22,9 +23,17 @@ MACRO = re.compile(r"\s+(?:EXPECT|ASSERT)_[A-Z_]+\(.*")
 CONTROL = re.compile(r"\s*(?:for|if|while)\b.*\)$")
 
 
-def formatted(text, path, style):
-    command = ["clang-format", f"--style=file:{style}", f"--assume-filename={path}"]
-    return subprocess.run(command, input=text, capture_output=True, text=True, check=True).stdout
+def formatted(texts, style, folder):
+    """Texts by the paths of their sources, laid out; many at a time, since clang-format starts slowly."""
+    copies = [folder / path.resolve().relative_to(ROOT) for path in texts]
+    for copy, text in zip(copies, texts.values()):
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        copy.write_text(text, encoding="utf-8")
+    n = os.cpu_count()
+    with ThreadPoolExecutor(n) as pool:
+        list(pool.map(lambda some: subprocess.run(["clang-format", "-i", f"--style=file:{style}", *some], check=True),
+                      [some for some in (copies[i::n] for i in range(n)) if some]))
+    return {path: copy.read_text(encoding="utf-8") for path, copy in zip(texts, copies)}
 
 
 def indent(line):
@@ -66,23 +75,25 @@ def braces_around_macros(text):
     return "\n".join(lines)
 
 
-def laid_out(path, without_braces):
-    """The text of a source and what it should be."""
-    text = path.read_text(encoding="utf-8")
-    ranged = PAIR.sub(lambda m: f"std::ranges::{m[1]}({m[2]}", text)
-    bare = formatted(formatted(ranged, path, without_braces), path, ROOT / ".clang-format")
-    return text, formatted(braces_around_macros(braces_around_wrapped_bodies(bare)), path, ROOT / ".clang-format")
+def laid_out(texts):
+    """What the texts of sources should be."""
+    style = ROOT / ".clang-format"
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        without_braces = folder / "without_braces"
+        without_braces.write_text(style.read_text() + "RemoveBracesLLVM: true\n")
+        wanted = {path: PAIR.sub(lambda m: f"std::ranges::{m[1]}({m[2]}", text) for path, text in texts.items()}
+        wanted = formatted(formatted(wanted, without_braces, folder), style, folder)
+        wanted = {path: braces_around_macros(braces_around_wrapped_bodies(text)) for path, text in wanted.items()}
+        return formatted(wanted, style, folder)
 
 
 def main(arguments):
     check = arguments[:1] == ["--check"]
     paths = [Path(name) for name in arguments[check:] if name.endswith((".cpp", ".hpp"))]
-    with tempfile.NamedTemporaryFile("w", suffix=".clang-format") as style, ThreadPoolExecutor() as pool:
-        style.write((ROOT / ".clang-format").read_text() + "RemoveBracesLLVM: true\n")
-        style.flush()
-        texts = list(pool.map(lambda path: laid_out(path, style.name), paths))
-    changed = [(path, wanted) for path, (text, wanted) in zip(paths, texts) if text != wanted]
-    for path, wanted in changed:
+    texts = {path: path.read_text(encoding="utf-8") for path in paths}
+    changed = {path: wanted for path, wanted in laid_out(texts).items() if wanted != texts[path]}
+    for path, wanted in changed.items():
         if check:
             print(f"{path}: ./dev format changes its layout")
         else:
