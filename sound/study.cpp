@@ -21,7 +21,7 @@ Brake brake_at(const squeal::Disc& disc, const squeal::SquealOptions& options, d
 {
   const squeal::FlexibleDisc flexible(disc, options);
   const squeal::StabilityProfile profile =
-      squeal::stability_over_speed(squeal::state_matrix_at(flexible), options.study.speeds);
+      squeal::stability_until_critical(squeal::state_matrix_at(flexible), options.study.speeds);
   Brake brake{.critical = squeal::critical_speed(profile),
               .stability = squeal::name_of(squeal::stability_of(profile)),
               .growth = squeal::least_stable_eigenvalue(flexible.state_matrix(speed)).real(),

@@ -90,7 +90,7 @@ LimitCycleBranch limit_cycle_branch(const Brake& brake, const SpeedRange& range,
 {
   brake.motion(range.to);  // says why, where there is none
   const BranchFollower follower(brake, range);
-  const auto limit = limit_of(stability_over_speed(state_matrix_at(brake), range));
+  const auto limit = limit_of(stability_until_critical(state_matrix_at(brake), range));
   LimitCycleBranch branch;
   if (limit) branch = branch_from(follower, brake, *limit, progress);
   const std::optional<double> speed = highest_unstable(brake, range);

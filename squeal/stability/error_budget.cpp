@@ -92,7 +92,7 @@ ErrorBudget error_budget(const FlexibleDisc& brake, const CriticalSpeed& critica
     if (*part) **part /= slope;
   if (const FlexibleDisc* complete = brake.complete(); complete && complete->is_autonomous()) {
     const auto of_all = critical_speed(
-        stability_over_speed(state_matrix_at(*complete), brake.options().study.speeds));
+        stability_until_critical(state_matrix_at(*complete), brake.options().study.speeds));
     if (of_all) budget.left_out = std::abs(of_all->speed - critical.speed);
   }
   return budget;

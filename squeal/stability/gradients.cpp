@@ -117,7 +117,7 @@ struct CriticalOscillation {
 std::optional<CriticalOscillation> critical_oscillation(const Brake& brake, const SpeedRange& range)
 {
   const StateMatrixAt A = state_matrix_at(brake);
-  const auto critical = critical_speed(stability_over_speed(A, range));
+  const auto critical = critical_speed(stability_until_critical(A, range));
   if (!critical) return std::nullopt;
   const double speed = critical->speed, h = step * speed;
   const EigenvalueChange change(matrix_of(brake, speed),

@@ -104,7 +104,7 @@ Eigen::VectorXcd eigenvector_near(const Eigen::MatrixXd& A, const Complex& expec
 ModeSubset subset_of(const InertialDisc& part, const SquealOptions& options, double speed)
 {
   const StabilityProfile profile =
-      stability_over_speed(matrices_of(part, options), options.study.speeds);
+      stability_until_critical(matrices_of(part, options), options.study.speeds);
   const auto critical = critical_speed(profile);
   ModeSubset subset{.n_modes = static_cast<int>(part.n_modes()),
                     .highest_Hz = part.omega.maxCoeff() / (2.0 * pi),
@@ -182,7 +182,7 @@ std::vector<ModeInfluence> influences(const InertialDisc& disc, const SquealOpti
 ModeSensitivity mode_sensitivity(const InertialDisc& disc, const SquealOptions& options)
 {
   const StabilityProfile profile =
-      stability_over_speed(matrices_of(disc, options), options.study.speeds);
+      stability_until_critical(matrices_of(disc, options), options.study.speeds);
   const auto critical = critical_speed(profile);
   if (!critical) {
     throw Error(

@@ -21,6 +21,11 @@ Eigen::VectorXd speeds_of(const SpeedRange& range, int count)
   return Eigen::VectorXd::LinSpaced(count, range.from, range.to);
 }
 
+SearchRange search_over(const SpeedRange& speeds)
+{
+  return {.from = speeds.from, .to = speeds.to, .count = std::max(128, speeds.count)};
+}
+
 }  // namespace
 
 Complex least_stable_eigenvalue(const Eigen::MatrixXd& A)
@@ -62,8 +67,12 @@ EigenvalueMap eigenvalues(const StateMatrixAt& A, const SpeedRange& range)
 
 StabilityProfile stability_over_speed(const StateMatrixAt& A, const SpeedRange& range)
 {
-  return stability_over(A,
-                        {.from = range.from, .to = range.to, .count = std::max(128, range.count)});
+  return stability_over(A, search_over(range));
+}
+
+StabilityProfile stability_until_critical(const StateMatrixAt& A, const SpeedRange& range)
+{
+  return stability_until_loss(A, search_over(range));
 }
 
 std::optional<CriticalSpeed> critical_speed(const StabilityProfile& profile)

@@ -28,6 +28,9 @@ EigenvalueMap eigenvalues(const StateMatrixAt& A, const SpeedRange& range);
 /// speeds, or `range.count` if that is more, are sampled first.
 StabilityProfile stability_over_speed(const StateMatrixAt& A, const SpeedRange& range);
 
+/// The same up to just above the critical speed, where there is one.
+StabilityProfile stability_until_critical(const StateMatrixAt& A, const SpeedRange& range);
+
 /// The lowest speed of the range at which stability is lost; absent when sliding is stable or
 /// unstable in the whole range, or only regains its stability.
 std::optional<CriticalSpeed> critical_speed(const StabilityProfile& profile);

@@ -47,6 +47,21 @@ StabilitySample sample_at(const StateMatrixOf& A, double value, const Eigen::Vec
   return {value, expected.size() > 0 ? matched(lambda, expected) : lambda, grows(A_here, lambda)};
 }
 
+/// @param is_enough  of the samples so far
+std::vector<StabilitySample> scan_until(const StateMatrixOf& A, const SearchRange& range,
+                                        const auto& is_enough)
+{
+  std::vector<StabilitySample> samples;
+  for (const double value : Eigen::VectorXd::LinSpaced(range.count, range.from, range.to)) {
+    Eigen::VectorXcd expected;
+    if (!samples.empty()) expected = samples.back().lambda;
+    if (samples.size() > 1) expected += samples.back().lambda - samples.end()[-2].lambda;
+    samples.push_back(sample_at(A, value, expected));
+    if (is_enough(samples)) break;
+  }
+  return samples;
+}
+
 }  // namespace
 
 bool is_unstable(const Eigen::MatrixXd& A)
@@ -61,14 +76,14 @@ double rounding_of(const Eigen::VectorXcd& lambda)
 
 std::vector<StabilitySample> scan(const StateMatrixOf& A, const SearchRange& range)
 {
-  std::vector<StabilitySample> samples;
-  for (const double value : Eigen::VectorXd::LinSpaced(range.count, range.from, range.to)) {
-    Eigen::VectorXcd expected;
-    if (!samples.empty()) expected = samples.back().lambda;
-    if (samples.size() > 1) expected += samples.back().lambda - samples.end()[-2].lambda;
-    samples.push_back(sample_at(A, value, expected));
-  }
-  return samples;
+  return scan_until(A, range, [](const auto& /*samples*/) { return false; });
+}
+
+std::vector<StabilitySample> scan_until_loss(const StateMatrixOf& A, const SearchRange& range)
+{
+  return scan_until(A, range, [](const std::vector<StabilitySample>& samples) {
+    return samples.size() > 1 && samples.back().unstable && !samples.end()[-2].unstable;
+  });
 }
 
 StabilitySample sample_between(const StateMatrixOf& A, const StabilitySample& low,

@@ -27,6 +27,9 @@ double rounding_of(const Eigen::VectorXcd& lambda);
 /// Equally spaced samples, with branches followed by extrapolation.
 std::vector<StabilitySample> scan(const StateMatrixOf& A, const SearchRange& range);
 
+/// Those of `scan` up to the first that is unstable after a stable one.
+std::vector<StabilitySample> scan_until_loss(const StateMatrixOf& A, const SearchRange& range);
+
 /// The sample between two others, at t = 0 ... 1 from the first to the second.
 StabilitySample sample_between(const StateMatrixOf& A, const StabilitySample& low,
                                const StabilitySample& high, double t);

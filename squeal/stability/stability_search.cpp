@@ -133,9 +133,9 @@ std::vector<StabilitySample> at_crossings(const StateMatrixOf& A, const Stabilit
 }
 
 /// The samples of a scan, and those between them at which stability may change and change back.
-std::vector<StabilitySample> all_samples(const StateMatrixOf& A, const SearchRange& range)
+std::vector<StabilitySample> with_those_between(const StateMatrixOf& A,
+                                                std::vector<StabilitySample> samples)
 {
-  std::vector<StabilitySample> samples = scan(A, range);
   std::vector<StabilitySample> more;
   const auto add = [&](std::vector<StabilitySample> found) {
     std::move(found.begin(), found.end(), std::back_inserter(more));
@@ -242,13 +242,24 @@ std::vector<UnstableInterval> intervals(const StateMatrixOf& A,
   return found;
 }
 
+/// @param scanned  equally spaced
+StabilityProfile profile_of(const StateMatrixOf& A, std::vector<StabilitySample> scanned)
+{
+  const double distance = scanned[1].value - scanned[0].value;
+  const std::vector<StabilitySample> samples = with_those_between(A, std::move(scanned));
+  return {point_of(samples.front()), point_of(samples.back()), intervals(A, samples, distance)};
+}
+
 }  // namespace
 
 StabilityProfile stability_over(const StateMatrixOf& A, const SearchRange& range)
 {
-  const std::vector<StabilitySample> samples = all_samples(A, range);
-  const double distance = (range.to - range.from) / (range.count - 1);
-  return {point_of(samples.front()), point_of(samples.back()), intervals(A, samples, distance)};
+  return profile_of(A, scan(A, range));
+}
+
+StabilityProfile stability_until_loss(const StateMatrixOf& A, const SearchRange& range)
+{
+  return profile_of(A, scan_until_loss(A, range));
 }
 
 }  // namespace chladni::squeal

@@ -32,4 +32,8 @@ struct SearchRange {
 /// Other instabilities that are narrower than the distance of the samples are not found.
 StabilityProfile stability_over(const StateMatrixOf& A, const SearchRange& range);
 
+/// As stability_over, but where stability is lost the range ends just above: for those who ask for
+/// nothing beyond, which may be most of the range.
+StabilityProfile stability_until_loss(const StateMatrixOf& A, const SearchRange& range);
+
 }  // namespace chladni::squeal

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "references/squeal/analytic_body.hpp"
@@ -44,6 +46,32 @@ TEST(StabilitySearch, TellsEveryIntervalAndTheFirstLoss)
   EXPECT_EQ(later.unstable[0].from.value, 1.5);
   EXPECT_NEAR(later.unstable[0].from.growth, 0.375, 1e-9);
   EXPECT_NEAR(first_loss(later)->value, 3.0, 1e-9);
+}
+
+TEST(StabilitySearch, UntilALossLooksAtNothingFarAboveIt)
+{
+  const StateMatrixOf A =
+      side_by_side({{[](double v) { return (v - 1.0) * (v - 2.0) * (v - 3.0); }, 5000.0},
+                    {[](double) { return -40.0; }, 800.0}});
+  double highest = 0.0;
+  const StateMatrixOf watched = [&](double value) {
+    highest = std::max(highest, value);
+    return A(value);
+  };
+  const double distance = 3.9 / 127.0;
+  for (const auto& [from, loss] : {std::pair(0.1, 1.0), std::pair(1.5, 3.0)}) {
+    highest = 0.0;
+    const SearchRange range{.from = from, .to = from + 3.9, .count = 128};
+    const StabilityProfile found = stability_until_loss(watched, range);
+    EXPECT_EQ(stability_of(found), Stability::lost);
+    EXPECT_NEAR(first_loss(found)->value, first_loss(stability_over(A, range))->value, 1e-12);
+    EXPECT_NEAR(first_loss(found)->value, loss, 1e-9);
+    EXPECT_LE(highest, loss + distance);
+  }
+  // Where none is found, nothing is left out.
+  const SearchRange regained{.from = 1.5, .to = 2.5, .count = 128};
+  EXPECT_NEAR(first_regain(stability_until_loss(A, regained))->value, 2.0, 1e-9);
+  EXPECT_EQ(stability_until_loss(A, regained).to.value, 2.5);
 }
 
 TEST(StabilitySearch, TellsStableFromUnstableInTheWholeRange)
