@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/real_eigenvalues.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -60,7 +61,7 @@ bool changes_stability(const Complex& exact, const Complex& found)
 CondensationError condensation_error(const VectorXcd& exact, const Eigen::MatrixXd& A,
                                      const CondensationOptions& wanted)
 {
-  const std::vector<Complex> found = oscillations(A.eigenvalues());
+  const std::vector<Complex> found = oscillations(linear::real_eigenvalues(A));
   const std::vector<std::size_t> partner = partners(exact, found);
   CondensationError error{.n_eigenvalues = static_cast<int>(exact.size()), .n_states = 1};
   for (std::size_t i = 0; i < partner.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "linear/dense/orthogonal_factor.hpp"
+#include "linear/dense/real_eigenvalues.hpp"
 #include "squeal/stability/eigenvalue_change.hpp"
 
 namespace chladni::squeal {
@@ -26,7 +27,7 @@ FloquetMultipliers floquet_multipliers(const Eigen::MatrixXd& X, const Eigen::Ve
   FloquetMultipliers multipliers{Eigen::VectorXcd(n), (X * f_start - f_end).norm() / speed, 0.0,
                                  0.0};
   multipliers.values[0] = in_Q(0, 0);
-  multipliers.values.tail(n - 1) = Eigen::EigenSolver<Eigen::MatrixXd>(B, false).eigenvalues();
+  multipliers.values.tail(n - 1) = linear::real_eigenvalues(B);
   std::sort(multipliers.values.begin() + 1, multipliers.values.end(),
             [](const auto& a, const auto& b) {
               return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();

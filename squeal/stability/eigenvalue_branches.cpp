@@ -5,8 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "common/error.hpp"
-#include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/real_eigenvalues.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -17,10 +16,7 @@ using Complex = std::complex<double>;
 
 Eigen::VectorXcd oscillating_eigenvalues(const Eigen::MatrixXd& A)
 {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A, /*computeEigenvectors=*/false);
-  if (solver.info() != Eigen::Success)
-    throw Error("eigenvalues of the sliding disc: the QR iteration did not converge");
-  const Eigen::VectorXcd& lambda = solver.eigenvalues();
+  const Eigen::VectorXcd lambda = linear::real_eigenvalues(A);
   std::vector<Complex> sorted(lambda.begin(), lambda.end());
   std::ranges::sort(sorted, [](const Complex& x, const Complex& y) {
     return x.imag() != y.imag() ? x.imag() > y.imag() : x.real() > y.real();

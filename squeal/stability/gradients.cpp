@@ -11,6 +11,7 @@
 
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/real_eigenvalues.hpp"
 #include "squeal/brake/pad_basis.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/stability/eigenvalue_change.hpp"
@@ -90,7 +91,7 @@ MatrixXd derivative(const Variable& p, double speed)
 /// The least stable motion, then all others that grow by more than rounding, by falling growth.
 std::vector<EigenvalueChange> motions_at(const MatrixXd& A)
 {
-  const Eigen::VectorXcd lambda = A.eigenvalues();
+  const Eigen::VectorXcd lambda = linear::real_eigenvalues(A);
   std::vector<Complex> upper;
   for (const Complex& one : lambda)
     if (one.imag() >= 0.0) upper.push_back(one);

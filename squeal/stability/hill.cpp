@@ -12,6 +12,7 @@
 
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/real_eigenvalues.hpp"
 #include "squeal/stability/group_exponents.hpp"
 #include "squeal/stability/near_groups.hpp"
 #include "squeal/stability/turning_modes.hpp"
@@ -99,9 +100,7 @@ double Hill::frozen_growth(double speed, int nu) const
   for (int s = 0; s < n_frozen_angles; ++s) {
     // Each in another period: those harmonics that were left out of the motion count here.
     const double angle = 2.0 * pi * (double(s) / n_frozen_angles + s % nu) / nu;
-    Eigen::EigenSolver<Eigen::MatrixXd> solver;
-    solver.compute(frozen.at(angle), false);
-    growth = std::max(growth, solver.eigenvalues().real().maxCoeff());
+    growth = std::max(growth, linear::real_eigenvalues(frozen.at(angle)).real().maxCoeff());
   }
   return growth;
 }

@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/real_eigenvalues.hpp"
 #include "squeal/brake/state_matrix.hpp"
 #include "squeal/root.hpp"
 #include "squeal/stability/stability.hpp"
@@ -69,7 +70,7 @@ StateMatrixAt matrices_of(const InertialDisc& part, const SquealOptions& options
 /// The eigenvalue of A nearest to `expected`.
 Complex nearest_eigenvalue(const Eigen::MatrixXd& A, const Complex& expected)
 {
-  const Eigen::VectorXcd lambda = A.eigenvalues();
+  const Eigen::VectorXcd lambda = linear::real_eigenvalues(A);
   Eigen::Index at = 0;
   (lambda.array() - expected).abs().minCoeff(&at);
   return lambda[at];

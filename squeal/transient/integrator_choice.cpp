@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/real_eigenvalues.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/brake/point_shapes.hpp"
 #include "squeal/brake/state_matrix.hpp"
@@ -139,7 +140,7 @@ bool is_stiff(const Disc& disc, const SquealOptions& options, double speed)
   Eigen::MatrixXd A(2 * n, 2 * n);
   A << Eigen::MatrixXd::Zero(n, n), omega,
       -omega - pads.K * brake.omega.cwiseInverse().asDiagonal(), -brake.C - pads.C;
-  return -A.eigenvalues().real().minCoeff() > brake.omega.maxCoeff();
+  return -linear::real_eigenvalues(A).real().minCoeff() > brake.omega.maxCoeff();
 }
 
 /// Whether the start of a run may stop a pad on the disc, and friction then damps so fast that an
@@ -217,9 +218,10 @@ double growth_error_of(IntegratorKind kind, const InertialDisc& disc, const Sque
                        double speed, int steps_per_period)
 {
   const double step = 2.0 * pi / (disc.omega.maxCoeff() * steps_per_period);
-  const Eigen::VectorXcd exact = state_matrix(disc, options, speed).eigenvalues();
+  const Eigen::VectorXcd exact = linear::real_eigenvalues(state_matrix(disc, options, speed));
   if (kind == IntegratorKind::splitting) {
-    const Eigen::ArrayXcd mu = splitting_step(disc, options, speed, step).eigenvalues().array();
+    const Eigen::ArrayXcd mu =
+        linear::real_eigenvalues(splitting_step(disc, options, speed, step)).array();
     return largest_error(exact, mu.log() / step);
   }
   if (kind != IntegratorKind::generalised_alpha) return 0.0;

@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/real_eigenvalues.hpp"
 #include "squeal/brake/friction_range.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/models/flexible_disc.hpp"
@@ -72,7 +73,7 @@ FrequencyRange frequencies_of(const Disc& disc, const SquealOptions& options, do
 /// Of the eigenvalues about the sliding equilibrium.
 FrequencyRange frequencies_of(const Brake& brake, double speed)
 {
-  const Eigen::VectorXcd lambda = brake.state_matrix(speed).eigenvalues();
+  const Eigen::VectorXcd lambda = linear::real_eigenvalues(brake.state_matrix(speed));
   const double highest = lambda.cwiseAbs().maxCoeff();
   double lowest = highest;
   for (const std::complex<double>& value : lambda)
