@@ -16,6 +16,7 @@
 #include "mesh/decks/is_deck.hpp"
 #include "mesh/decks/read_deck.hpp"
 #include "mesh/exchange/is_exchange.hpp"
+#include "mesh/own_readers.hpp"
 #include "mesh/packed_mesh.hpp"
 #include "mesh/packed_options.hpp"
 
@@ -43,8 +44,8 @@ std::optional<confinement::Limits> limits_of(const MeshOptions& options)
   const std::uintmax_t found = fs::file_size(*options.file, unknown);
   const std::uint64_t size = unknown ? 0 : found;  // the mesher says what is wrong with it
   const std::uint64_t machine = bytes_of_machine();
-  const bool is_mesh = fs::path(*options.file).extension() == ".msh" || is_deck(*options.file) ||
-                       is_exchange(*options.file);
+  const bool is_mesh =
+      fs::path(*options.file).extension() == ".msh" || has_own_reader(*options.file);
   const double usual = is_mesh ? 60.0 + 4.0 * double(size) / double(MiB) : 900.0;
   const std::uint64_t most = is_mesh ? std::min(1024 * MiB + 64 * size, machine) : machine / 4 * 3;
   return confinement::Limits{
@@ -145,6 +146,10 @@ void ask_mesher(const MeshOptions& options, const std::string& subject,
 
 Mesh made_by_mesher(const MeshOptions& options)
 {
+  std::error_code unknown;
+  const bool is_ours = options.file && options.trust == Trust::owner &&
+                       has_own_reader(*options.file) && fs::is_regular_file(*options.file, unknown);
+  if (is_ours) return read_here(options);
   Mesh mesh;
   ask_mesher(
       options, "mesh", [](Packer&) {}, [&](Unpacker& answer) { mesh = unpack_mesh(answer); });

@@ -9,7 +9,7 @@ namespace chladni::mesh {
 
 /// The mesh, in metres, of a file or of a generator whose elements Gmsh makes. A stranger's file is
 /// read by a process that starts no program, writes no file, and is ended when it takes too much
-/// time or memory.
+/// time or memory; what its owner trusts and needs no Gmsh is read here.
 /// @throws chladni::Error with what is wrong with the file or the options, and when the process did
 ///         not finish.
 Mesh made_by_mesher(const MeshOptions& options);

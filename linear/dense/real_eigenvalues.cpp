@@ -1,12 +1,12 @@
 #include "linear/dense/real_eigenvalues.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
 
 #include "common/error.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::linear {
 namespace {

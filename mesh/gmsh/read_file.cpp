@@ -8,19 +8,16 @@
 
 #include "common/error.hpp"
 #include "mesh/check_msh.hpp"
-#include "mesh/decks/is_deck.hpp"
-#include "mesh/decks/read_deck.hpp"
-#include "mesh/exchange/is_exchange.hpp"
-#include "mesh/exchange/read_exchange.hpp"
 #include "mesh/gmsh/files.hpp"
 #include "mesh/gmsh/graded_sizes.hpp"
 #include "mesh/gmsh/model.hpp"
+#include "mesh/own_readers.hpp"
 
 namespace chladni::mesh {
 
 namespace {
 
-enum class Format { msh, geo, step, deck, exchange };
+enum class Format { msh, geo, step, own };
 
 Format format_of(const std::string& file)
 {
@@ -30,8 +27,7 @@ Format format_of(const std::string& file)
         ".bdf, .nas, .dat or .inp",
         file));
   }
-  if (is_deck(file)) return Format::deck;
-  if (is_exchange(file)) return Format::exchange;
+  if (has_own_reader(file)) return Format::own;
   const std::string extension = std::filesystem::path(file).extension().string();
   if (extension == ".msh") return Format::msh;
   if (extension == ".geo") return Format::geo;
@@ -90,22 +86,14 @@ std::vector<std::string> open(const MeshOptions& options, Format format)
   return notes;
 }
 
-void scale(Mesh& mesh, double metres)
-{
-  for (auto& x : mesh.positions)
-    for (double& coordinate : x) coordinate *= metres;
-}
-
 }  // namespace
 
 Mesh read_file(const MeshOptions& options, const std::function<void()>& before_reading)
 {
   const Format format = format_of(*options.file);
-  if (format == Format::deck || format == Format::exchange) {
+  if (format == Format::own) {
     before_reading();
-    Mesh mesh = format == Format::deck ? deck_mesh(options) : exchange_mesh(options);
-    scale(mesh, options.length_unit);
-    return mesh;
+    return read_here(options);
   }
   const int order = format == Format::msh ? 0 : options.element_order.value_or(3);
   const double unit = format == Format::step ? 1e-3 : options.length_unit;
