@@ -206,7 +206,12 @@ class QrIteration {
 Eigen::VectorXcd real_eigenvalues(const MatrixXd& A)
 {
   if (A.rows() == 0) return {};
-  return QrIteration(A).eigenvalues();
+  if (!A.allFinite()) throw Error("eigenvalues of a matrix with entries that are not finite");
+  const double largest = A.cwiseAbs().maxCoeff();
+  if (largest == 0.0) return Eigen::VectorXcd::Zero(A.rows());
+  // A power of two changes no digit, and keeps products from overflow and underflow.
+  const double scale = std::scalbn(1.0, std::ilogb(largest));
+  return scale * QrIteration(A / scale).eigenvalues();
 }
 
 }  // namespace chladni::linear

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <limits>
 #include <numbers>
@@ -114,9 +115,26 @@ TEST(RealEigenvalues, OfSlightlyDampedMotionsKeepTheirGrowth)
 
 TEST(RealEigenvalues, OfWhatIsNotFiniteAreAnError)
 {
-  MatrixXd A = random_matrix(6);
-  A(2, 3) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(real_eigenvalues(A), Error);
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (const Index n : {1, 2, 6}) {
+      MatrixXd A = MatrixXd::Identity(n, n);
+      A(0, n - 1) = bad;
+      EXPECT_THROW(real_eigenvalues(A), Error) << n;
+    }
+  }
+}
+
+TEST(RealEigenvalues, OfLargeAndSmallMatricesAreThoseTimesTheirSize)
+{
+  for (const Index n : {2, 3, 9}) {
+    const MatrixXd A = random_matrix(n);
+    const VectorXcd usual = real_eigenvalues(A);
+    for (const int power : {-600, 600}) {
+      const VectorXcd found = real_eigenvalues(std::scalbn(1.0, power) * A);
+      EXPECT_EQ(VectorXcd(std::scalbn(1.0, -power) * found), usual) << n << " " << power;
+    }
+  }
 }
 
 }  // namespace
