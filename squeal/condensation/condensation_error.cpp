@@ -6,7 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "linear/dense/dense_solvers.hpp"
 #include "linear/dense/real_eigenvalues.hpp"
 
 namespace chladni::squeal {

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "common/error.hpp"
-#include "linear/dense/dense_solvers.hpp"
 #include "linear/dense/real_eigenvalues.hpp"
 #include "squeal/brake/pad_basis.hpp"
 #include "squeal/models/flexible_disc.hpp"

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "linear/dense/dense_solvers.hpp"
 #include "linear/dense/real_eigenvalues.hpp"
 #include "squeal/stability/group_exponents.hpp"
 #include "squeal/stability/near_groups.hpp"

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "common/error.hpp"
-#include "linear/dense/dense_solvers.hpp"
 #include "linear/dense/real_eigenvalues.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/brake/point_shapes.hpp"
