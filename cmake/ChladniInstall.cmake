@@ -5,7 +5,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/chladni)
-set(light_libraries common files dense fmu mbs_export squeal_options squeal_brake squeal)
+set(light_libraries common products files dense fmu mbs_export squeal_options squeal_brake squeal)
 set(fe_libraries petsc linear confinement mesh elements plate reduce reduce_export air_of_gmsh sound)
 
 # chladni_export(SET LIBRARIES...): those that are built become chladni::NAME of the package.
@@ -183,6 +183,7 @@ foreach(component squeal fe dev)
           COMPONENT ${component})
 endforeach()
 
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # `programs` is enough
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The Chladni authors <chladni@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Modal bodies of plates and shells, and their squeal")
@@ -205,3 +206,16 @@ if(CHLADNI_FE)
   list(APPEND CPACK_COMPONENTS_ALL fe)
 endif()
 include(CPack)
+
+# All that is installed, without the tests: for packages.
+add_custom_target(programs)
+foreach(target chladni_petsc_plugin chladni_self_description squeal_self_description)
+  if(TARGET ${target})
+    add_dependencies(programs ${target})
+  endif()
+endforeach()
+foreach(library IN LISTS light_libraries fe_libraries)
+  if(TARGET chladni_${library})
+    add_dependencies(programs chladni_${library})
+  endif()
+endforeach()

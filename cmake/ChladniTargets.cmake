@@ -6,23 +6,34 @@ function(chladni_library name)
   target_include_directories(chladni_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   target_link_libraries(chladni_${name} PUBLIC ${ARG_LINK})
   set_target_properties(chladni_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  chladni_warnings(chladni_${name})
+  chladni_compile(chladni_${name})
 endfunction()
 
-# What takes little of the run time and a quarter of the compiling: not optimised where CHLADNI_QUICK asks so.
-set(rarely_at_work chladni_report chladni_report_fe chladni_scene chladni_cli chladni_squeal_case chladni squeal)
-
-function(chladni_warnings target)
-  if(CHLADNI_QUICK AND target IN_LIST rarely_at_work)
-    target_compile_options(${target} PRIVATE -O0)
-  endif()
+# Warnings, and what is read before the first line of each source: standard headers, Eigen and the products that
+# replace Eigen's (docs/explanation/decisions/0011-products-are-compiled-once.md).
+function(chladni_compile target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion)
   # In a batch a source sees what others before it declare for themselves.
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
-                                           $<IF:$<BOOL:${CHLADNI_BATCHES}>,-Wshadow=local,-Wshadow>
-                                           # GCC 12 warns of these falsely inside Eigen.
-                                           -Wno-maybe-uninitialized -Wno-free-nonheap-object)
+  if(NOT CHLADNI_BATCHES)
+    target_compile_options(${target} PRIVATE -Wshadow)
+  endif()
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)  # GCC 12 warns of these falsely inside Eigen
+    target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized -Wno-free-nonheap-object)
+  endif()
   if(CHLADNI_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(target STREQUAL chladni_products)
+    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/linear/dense/precompiled.hpp)
+    return()
+  endif()
+  target_link_libraries(${target} PRIVATE chladni::products)
+  target_compile_options(${target} PRIVATE -fPIC)  # programs too, or Clang takes no compiled header of a library
+  get_target_property(visibility ${target} CXX_VISIBILITY_PRESET)
+  if(visibility STREQUAL CMAKE_CXX_VISIBILITY_PRESET)
+    target_precompile_headers(${target} REUSE_FROM chladni_products)
+  else()  # a compiled header is for one
+    target_compile_options(${target} PRIVATE -include ${PROJECT_SOURCE_DIR}/linear/dense/products.hpp)
   endif()
 endfunction()
 
@@ -31,9 +42,9 @@ endfunction()
 function(chladni_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;RANKS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
-  chladni_warnings(${name})
+  chladni_compile(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:$<IF:$<BOOL:${CHLADNI_QUICK}>,-O0,-O1>>)  # half the build time; the libraries do the work
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # half the build time; the libraries do the work
   target_compile_definitions(${name} PRIVATE CHLADNI_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   if(NOT ARG_RANKS)

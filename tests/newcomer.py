@@ -14,6 +14,8 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT / "tests/tools"))
+from compile_times import table  # noqa: E402
 SHOWN = 14  # last lines of each output
 OF_DEV = re.compile(r"OMPI_|OPENBLAS_|OMP_|CCACHE_|PYTHONDONTWRITEBYTECODE")
 
@@ -71,6 +73,8 @@ def main(output):
             lines = [line.rstrip().replace(name, "") for line in printed.strip().splitlines()][-SHOWN:]
             report += [f"## `{command}`", "", f"{seconds:.0f} s, exit code {code}", "", "```text", *lines, "```", ""]
             print(f"{seconds:8.1f} s  {code}  {command}", flush=True)
+            if command.startswith("./dev demo"):
+                report += ["Of this, compiling:", "", *table(clone / "build/release"), ""]
             if code:
                 break
     outcome = f"The last command failed with exit code {code}." if code else (

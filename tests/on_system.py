@@ -1,28 +1,35 @@
 """`./dev test` and `./dev demo` on another Debian: a bare system in a folder and the committed files; as root. Adds a
 section of that system to a page, in place of an earlier one; with one of the commands alone, the line of the other stays.
 
-Usage: on_system.py SUITE PAGE.md [test | demo]. Called by `./dev test-on SUITE`. The system stays in /var/tmp/chladni-SUITE,
+With `package`, the packages are made there, installed in another bare system, and the example is run by them.
+
+Usage: on_system.py SUITE PAGE.md [test | demo | package]. Called by `./dev test-on SUITE`. The system stays in /var/tmp/chladni-SUITE,
 so that a second call needs no download.
 """
 
 import os
 import re
+import shutil
 import subprocess
 import sys
+import tempfile
 import time
 from contextlib import contextmanager
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT / "tests/tools"))
+from compile_times import table  # noqa: E402
 MIRROR = "http://deb.debian.org/debian"
 MOUNTED = ("proc", "sys", "dev")
 PACKAGES = ("g++", "cmake", "libpetsc-real-dev", "libslepc-real-dev", "libmumps-dev", "libgmsh-dev", "libhdf5-dev",
             "libeigen3-dev", "libopenmpi-dev")  # fmt: skip
-COMMANDS = ("./dev test", "./dev demo")
+COMMANDS = ("./dev test", "./dev demo", "./dev package")
+EXAMPLE = "examples/thesis_disc/scene.toml"
 WIDTH = 200  # of lines of compilers
 SHOWN = 12  # last lines of a command that failed
 HEAD = ["# Systems", "",
-        "Written by `./dev test-on SUITE`: a bare Debian in a folder (debootstrap), then `./dev test` and `./dev demo` of the "
+        "Written by `./dev test-on SUITE`: a bare Debian in a folder (debootstrap), then `./dev test`, `./dev demo` and `./dev package` of the "
         "committed files, without compiler cache. Warnings, which are no errors here, are counted.", ""]  # fmt: skip
 
 
@@ -95,8 +102,7 @@ def outcome(command, code, printed, seconds, where=""):
     if packages:
         minutes = f"{(seconds - int(packages[1])) / 60:.1f} minutes after the packages"
     facts = [minutes, f"exit code {code}"]
-    if not command.endswith("test"):  # whose compiler is told to be silent
-        facts.append(f"{warnings} warnings")
+    facts.append(f"{warnings} warnings")
     facts += [f"{failed} of {total} tests failed" for _, failed, total in tests]
     lines = [f"`{command}`{where}: {', '.join(facts)}.", ""]
     failed = re.findall(r"^\s*\d+ - (\S+ \((?!Skipped).*\))", printed, re.M)
@@ -115,6 +121,28 @@ def earlier(page, suite, command):
     return [*said[0].strip().splitlines(), ""] if said else []
 
 
+def installed_packages(suite, made_in):
+    """The exit code, and lines of the page: the packages in a bare system of their own."""
+    with tempfile.TemporaryDirectory(dir="/var/tmp") as name:
+        folder = Path(name)
+        bare_system(suite, folder)
+        with mounted(folder):
+            clone = folder / "root/chladni"
+            (clone / "examples").mkdir(parents=True)
+            for part in ("out/packages", "examples/thesis_disc"):
+                shutil.copytree(made_in / "root/chladni" / part, clone / part)
+            commands = ["apt-get -qq update && apt-get -qq install -y --no-install-recommends ./out/packages/chladni*.deb",
+                        f"chladni run {EXAMPLE} --output out && squeal run {EXAMPLE} --output out"]  # fmt: skip
+            lines = []
+            for command in commands:
+                code, printed, seconds = inside(folder, command)
+                print(f"{seconds:8.0f} s  {code}  {command}", flush=True)
+                lines += outcome(command, code, printed, seconds, ", in a bare system without compiler")
+                if code:
+                    break
+        return code, lines
+
+
 def section(suite, folder, page, commands):
     """The exit code of the last command, and the lines of the page."""
     lines, code = [], 0
@@ -127,8 +155,14 @@ def section(suite, folder, page, commands):
         (folder / "root" / (command.split()[-1] + ".log")).write_text(printed)
         print(f"{seconds:8.0f} s  {code}  {command}", flush=True)
         lines += outcome(command, code, printed, seconds, f", commit {commit}, {time.strftime('%Y-%m-%d')}")
+        if not code and command == "./dev package":
+            code, tried = installed_packages(suite, folder)
+            lines += tried
         if code and len(commands) > 1:
             break
+    compiled = table(folder / "root/chladni/build/release")
+    if compiled:
+        lines += ["What was compiled for the last of them and those before:", "", *compiled, ""]
     debian = (folder / "etc/debian_version").read_text().strip()
     table = ["| package | version |", "| --- | --- |", *(f"| {name} | {version} |" for name, version in versions(folder).items())]
     return code, [f"## {suite}", "",
@@ -148,7 +182,7 @@ def main(suite, page, command=None):
     folder, page = Path(f"/var/tmp/chladni-{suite}"), Path(page)
     commands = [f"./dev {command}"] if command else COMMANDS
     if not set(commands) <= set(COMMANDS):
-        sys.exit(f"on_system.py: tests and demos are tried, not '{command}'; give 'test' or 'demo', or nothing for both")
+        sys.exit(f"on_system.py: test, demo and package are tried, not '{command}'; give one of them, or nothing for all")
     bare_system(suite, folder)
     with mounted(folder):
         committed_files(folder)

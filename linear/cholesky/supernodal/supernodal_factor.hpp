@@ -124,7 +124,7 @@ class SupernodalFactor : public CholeskyFactor {
   };
   void solve_block(const SparseProblem& problem, const std::vector<int>& columns, LocalColumns X);
   void sum_slots(int s, Panels X) const;
-  std::vector<char> active(Panels X, const Supernodes& trees) const;
+  std::vector<char> active_supernodes(Panels X, const Supernodes& trees) const;
   void sweep_forward(Panels X, const Supernodes& trees, const std::vector<char>& is_active) const;
   void sweep(Panels X, const Supernodes& trees, const std::vector<char>& is_active) const;
   template <typename Sweep>

@@ -86,7 +86,7 @@ void SupernodalFactor::sum_slots(int s, Panels X) const
 }
 
 /// The own supernodes in whose slots or below them something is not zero, and all shared ones.
-std::vector<char> SupernodalFactor::active(Panels X, const Supernodes& trees) const
+std::vector<char> SupernodalFactor::active_supernodes(Panels X, const Supernodes& trees) const
 {
   std::vector<char> is_active(tree_.n_supernodes(), 1);
   for (const int s : trees.own) is_active[s] = 0;
@@ -157,13 +157,13 @@ void SupernodalFactor::in_panels(const SlotExchange& exchange, LocalColumns X, c
 void SupernodalFactor::solve(const SupernodalPart& part, LocalColumns X)
 {
   in_panels(part.exchange, X,
-            [&](Panels block) { sweep(block, part.supernodes, active(block, part.supernodes)); });
+            [&](Panels block) { sweep(block, part.supernodes, active_supernodes(block, part.supernodes)); });
 }
 
 void SupernodalFactor::solve_half(const SupernodalPart& part, LocalColumns X)
 {
   in_panels(part.exchange, X, [&](Panels block) {
-    sweep_forward(block, part.supernodes, active(block, part.supernodes));
+    sweep_forward(block, part.supernodes, active_supernodes(block, part.supernodes));
     for (const int s : part.supernodes.own) scale_by_root(tiles(s), block);
     for (const std::vector<int>& supernodes : part.supernodes.shared) {
       for (const int s : supernodes) {
