@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "common/eigen_every.hpp"
 #include "common/petsc_compat.hpp"
@@ -174,6 +175,30 @@ PetscInt SectorCoordinates::followed_by(PetscInt row) const
   if (it == rows_.high.end()) return -1;
   const PetscInt low = rows_.low[static_cast<std::size_t>(it - rows_.high.begin())];
   return low == row ? -1 : low;
+}
+
+std::vector<PetscInt> SectorCoordinates::alike(PetscInt row) const
+{
+  const auto it = std::ranges::find(rows_.high, row);
+  if (it == rows_.high.end() || followed_by(row) >= 0 || E_.size() == 0) return {};
+  constexpr double round_off = 1e-10;
+  const Eigen::Index b = E_.rows(), place = (it - rows_.high.begin()) % b;
+  // Components of the graph whose edges are what a row without a coordinate takes from others.
+  std::vector<Eigen::Index> group(static_cast<std::size_t>(b));
+  std::iota(group.begin(), group.end(), Eigen::Index{0});
+  for (Eigen::Index i = 0; i < b; ++i) {
+    if (std::ranges::find(kept_, static_cast<int>(i)) != kept_.end()) continue;
+    for (std::size_t j = 0; j < kept_.size(); ++j) {
+      if (std::abs(E_(i, static_cast<Eigen::Index>(j))) > round_off)
+        std::ranges::replace(group, Eigen::Index{group[std::size_t(i)]},
+                             Eigen::Index{group[std::size_t(kept_[j])]});
+    }
+  }
+  std::vector<PetscInt> rows;
+  for (Eigen::Index i = 0; i < b; ++i)
+    if (group[std::size_t(i)] == group[std::size_t(place)])
+      rows.push_back(*(it - place + i));
+  return rows.size() > 1 ? rows : std::vector<PetscInt>{};
 }
 
 /// What of a block its phase takes from its own x and y, from those of the block that it follows,

@@ -165,7 +165,7 @@ std::optional<std::string> find_asymmetry(Mat A, const std::vector<double>& row_
 petsc::Matrix checked_operator(Mat A, Mat like, const char* name)
 {
   check_layout(A, like, name);
-  petsc::Matrix aij = linear::as_aij(A);
+  petsc::Matrix aij = linear::with_ascending_rows(linear::as_aij(A));
   const Scan entries = scan(aij, name);
   agree_on(entries.complaint, petsc::communicator(A));
   agree_on(find_asymmetry(aij, entries.row_sums, name), petsc::communicator(A));
@@ -176,7 +176,7 @@ petsc::Matrix checked_operator(Mat A, Mat like, const char* name)
 VelocityForces checked_velocity_forces(Mat C, Mat like)
 {
   check_layout(C, like, "C");
-  petsc::Matrix aij = linear::as_aij(C);
+  petsc::Matrix aij = linear::with_ascending_rows(linear::as_aij(C));
   const Scan entries = scan(aij, "C");
   agree_on(entries.complaint, petsc::communicator(C));
   int skew = find_asymmetry(aij, entries.row_sums, "C") ? 1 : 0;

@@ -8,8 +8,8 @@
 
 namespace chladni::plugin {
 
-/// Checks a symmetric operator and returns it as AIJ: a reference if it is AIJ already, else a
-/// converted copy.
+/// Checks a symmetric operator and returns it as AIJ with ascending rows: a reference if it is that
+/// already, else a converted copy.
 /// @param like  the matrix whose rows, columns and distribution A must have
 /// @param name  of A, for messages
 /// @note   Collective.

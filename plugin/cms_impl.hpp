@@ -59,6 +59,7 @@ struct Inside {
   std::optional<HarmonicProblem> problem;  ///< set with sectors only
   std::optional<SetUp> set_up;
   std::optional<Result> result;
+  bool is_at_work = false;  ///< in CMSSetUp or CMSSolve, which may call functions of the user
 };
 
 struct Events {
@@ -118,6 +119,10 @@ class CMSPhases : public reduce::PhaseListener {
 
 /// The options `-PREFIXcms_...` of the object, in its own database, for the solvers inside.
 linear::OptionSource option_source(CMS cms);
+
+/// An error while CMSSetUp or CMSSolve is at work, so that a monitor cannot take away what they work
+/// on; 0 otherwise.
+PetscErrorCode refuse_at_work(CMS cms, const char* function);
 
 /// Does the work of CMSSetUp.
 /// @throws chladni::Error on all ranks when the operators or the interface cannot be reduced.

@@ -39,6 +39,17 @@ PetscErrorCode forget_package()
 }
 
 }  // namespace
+
+PetscErrorCode refuse_at_work(CMS cms, const char* function)
+{
+  PetscFunctionBegin;
+  PetscCheck(!cms->inside->is_at_work, PetscObjectComm((PetscObject)cms), PETSC_ERR_ORDER,
+             "%s() was called by a monitor, while CMSSetUp() or CMSSolve() works on this object; "
+             "call it afterwards, or let the monitor return an error code to end the work",
+             function);
+  PetscFunctionReturn(0);
+}
+
 }  // namespace chladni::plugin
 
 using namespace chladni;  // NOLINT(google-build-using-namespace): C functions, but C++ inside
@@ -80,6 +91,7 @@ PetscErrorCode CMSDestroy(CMS* cms)
   PetscFunctionBegin;
   if (!*cms) PetscFunctionReturn(0);
   PetscValidHeaderSpecific(*cms, CMS_CLASSID, 1);
+  if (((PetscObject)*cms)->refct == 1) PetscCall(refuse_at_work(*cms, __func__));
   if (--((PetscObject)*cms)->refct > 0) {
     *cms = nullptr;
     PetscFunctionReturn(0);
@@ -93,6 +105,7 @@ PetscErrorCode CMSReset(CMS cms)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscCall(refuse_at_work(cms, __func__));
   cms->inside->result.reset();
   cms->inside->set_up.reset();
   cms->inside->problem.reset();
@@ -158,6 +171,7 @@ PetscErrorCode CMSSetInterfaceGeometry(CMS cms, PetscInt n, const PetscInt nodes
   PetscInt n_local = 0;
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscCall(refuse_at_work(cms, __func__));
   PetscCheck(cms->inside->interface, PetscObjectComm((PetscObject)cms), PETSC_ERR_ORDER,
              "Call CMSSetInterface() before CMSSetInterfaceGeometry()");
   PetscCall(ISGetLocalSize(cms->inside->interface, &n_local));
@@ -183,6 +197,7 @@ PetscErrorCode CMSSetHeld(CMS cms, IS held)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscCall(refuse_at_work(cms, __func__));
   if (held) PetscValidHeaderSpecific(held, IS_CLASSID, 2);
   PetscCall(guarded((PetscObject)cms, __func__, [&] {
     cms->inside->held = reference<petsc::IndexSet>(held);
@@ -195,6 +210,7 @@ PetscErrorCode CMSSetOutput(CMS cms, IS rows)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscCall(refuse_at_work(cms, __func__));
   if (rows) PetscValidHeaderSpecific(rows, IS_CLASSID, 2);
   PetscCall(guarded((PetscObject)cms, __func__, [&] {
     cms->inside->output = reference<petsc::IndexSet>(rows);

@@ -55,6 +55,7 @@ PetscErrorCode CMSSetType(CMS cms, CMSType type)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscCall(refuse_at_work(cms, __func__));
   for (std::size_t i = 0; i < types.size(); ++i) {
     if (std::strcmp(type, type_names[i]) != 0) continue;
     if (cms->inside->settings.options.basis.method != types[i]) cms->inside->result.reset();
@@ -80,6 +81,7 @@ PetscErrorCode CMSSetDimensions(CMS cms, PetscInt nmodes)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscCall(refuse_at_work(cms, __func__));
   PetscValidLogicalCollectiveInt(cms, nmodes, 2);
   PetscCheck(nmodes > 0, PetscObjectComm((PetscObject)cms), PETSC_ERR_ARG_OUTOFRANGE,
              "%" PetscInt_FMT " modes; give at least one, or -cms_type guyan for none", nmodes);
@@ -93,6 +95,7 @@ PetscErrorCode CMSSetCutoff(CMS cms, PetscReal f)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscCall(refuse_at_work(cms, __func__));
   PetscValidLogicalCollectiveReal(cms, f, 2);
   PetscCheck(f > 0.0 && std::isfinite(f), PetscObjectComm((PetscObject)cms),
              PETSC_ERR_ARG_OUTOFRANGE, "Cut-off %g Hz; give a positive -cms_cutoff", (double)f);
@@ -106,6 +109,7 @@ PetscErrorCode CMSSetTolerance(CMS cms, PetscReal tol, PetscReal upto)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscCall(refuse_at_work(cms, __func__));
   PetscValidLogicalCollectiveReal(cms, tol, 2);
   PetscValidLogicalCollectiveReal(cms, upto, 3);
   PetscCheck(tol > 0.0 && tol < 1.0 && upto > 0.0 && std::isfinite(upto),
@@ -123,8 +127,11 @@ PetscErrorCode CMSSetSylvester(CMS cms, PetscBool count)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscCall(refuse_at_work(cms, __func__));
   PetscValidLogicalCollectiveBool(cms, count, 2);
-  cms->inside->settings.options.count = count == PETSC_TRUE;
+  auto& counts = cms->inside->settings.options.count;
+  if (counts != (count == PETSC_TRUE)) cms->inside->result.reset();
+  counts = count == PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
@@ -188,6 +195,7 @@ PetscErrorCode CMSSetFromOptions(CMS cms)
   PetscInt harmonic = 0;
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscCall(refuse_at_work(cms, __func__));
   Settings& settings = cms->inside->settings;
   PetscBool sylvester = settings.options.count == true ? PETSC_TRUE : PETSC_FALSE;
   PetscBool monitor = settings.prints_phases ? PETSC_TRUE : PETSC_FALSE;
@@ -224,7 +232,7 @@ PetscErrorCode CMSSetFromOptions(CMS cms)
   if (cutoff_given) PetscCall(CMSSetCutoff(cms, cutoff));
   if (tolerance_given) PetscCall(CMSSetTolerance(cms, tolerance, up_to));
   if (harmonic_given) PetscCall(CMSSetHarmonic(cms, harmonic));
-  settings.options.count = sylvester == PETSC_TRUE;
+  PetscCall(CMSSetSylvester(cms, sylvester));
   settings.prints_phases = monitor == PETSC_TRUE;
   PetscCall(guarded((PetscObject)cms, __func__, [&] { read_solver(cms); }));
   PetscFunctionReturn(0);

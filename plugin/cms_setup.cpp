@@ -130,16 +130,19 @@ SetUp make_set_up(CMS cms)
 
 namespace {
 
-/// A stage of the log and the event that spans all of it, for as long as it lives.
+/// The work of CMSSetUp or CMSSolve, for as long as it lives: a stage of the log and the event that
+/// spans all of it, and the mark that keeps monitors from changing the object.
 class Stage {
  public:
   Stage(CMS cms, PetscLogStage stage, PetscLogEvent event) : cms_(cms), event_(event)
   {
     petsc::check(PetscLogStagePush(stage));
     petsc::check(PetscLogEventBegin(event_, cms_, 0, 0, 0));
+    cms_->inside->is_at_work = true;
   }
   ~Stage()
   {
+    cms_->inside->is_at_work = false;
     static_cast<void>(PetscLogEventEnd(event_, cms_, 0, 0, 0));
     static_cast<void>(PetscLogStagePop());
   }
@@ -161,6 +164,7 @@ PetscErrorCode CMSSetUp(CMS cms)
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
   if (cms->inside->set_up) PetscFunctionReturn(0);
+  PetscCall(refuse_at_work(cms, __func__));
   PetscCall(guarded((PetscObject)cms, __func__, [&] {
     const Stage stage(cms, events.stage_set_up, events.set_up);
     cms->inside->set_up = make_set_up(cms);
@@ -172,6 +176,7 @@ PetscErrorCode CMSSolve(CMS cms)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscCall(refuse_at_work(cms, __func__));
   PetscCall(CMSSetUp(cms));
   if (!cms->inside->result) {
     PetscCall(guarded((PetscObject)cms, __func__, [&] {

@@ -1,5 +1,9 @@
 #include "plugin/harmonic_problem.hpp"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
 #include "common/all_ranks.hpp"
 #include "common/index_sets.hpp"
 
@@ -68,6 +72,13 @@ HarmonicMasters harmonic_masters(const cyclic::SectorCoordinates& coordinates,
           "CMSSetInterface: master {} is in the high edge; give row {} of the low edge, "
           "which it follows",
           row, low));
+    }
+    for (const PetscInt other : coordinates.alike(row)) {
+      if (std::ranges::find(masters, other) != masters.end()) continue;
+      throw Error(fmt::format(
+          "CMSSetInterface, CMSSetHeld: row {} is of a node that all sectors share, whose rows {} "
+          "the rotation turns into each other; name all of them or none: row {} is missing",
+          row, fmt::join(coordinates.alike(row), ", "), other));
     }
   }
   for (PetscInt phase = 0; phase < 2; ++phase) {

@@ -50,7 +50,8 @@ HarmonicProblem harmonic_problem(const Sectors& sectors, PetscInt order, const O
 /// The masters of a harmonic: x of all masters, then y. Those that the harmonic does not move are
 /// left out.
 /// @param masters  rows of the sector in the order of the interface
-/// @throws chladni::Error when a master is in the high edge and so follows another row.
+/// @throws chladni::Error when a master is in the high edge and so follows another row, or is of a
+///         shared node of whose rows that move together others are missing.
 HarmonicMasters harmonic_masters(const cyclic::SectorCoordinates& coordinates,
                                  const std::vector<PetscInt>& masters);
 

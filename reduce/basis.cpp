@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "common/error.hpp"
 #include "linear/machine_memory.hpp"
 #include "reduce/certify.hpp"
 #include "reduce/held_masters.hpp"
@@ -118,6 +119,16 @@ WholeSystem whole_system(const FactoredBody& body)
           .K_ss = body.K_ss};
 }
 
+void refuse_unkept_tolerance(const ReduceOptions& wanted)
+{
+  if (!wanted.tolerance || keeps_tolerances(wanted.method)) return;
+  throw Error(fmt::format(
+      "a tolerance was given to the method {}, which cannot keep one: its modes are not searched "
+      "for by their errors; take auto, mixed-interface or craig-bampton, or give a number of modes "
+      "or a cut-off",
+      name_of(wanted.method)));
+}
+
 bool has_free_masters(Method method)
 {
   return method != Method::guyan && method != Method::craig_bampton;
@@ -127,6 +138,7 @@ Basis make_basis(const FactoredBody& body, const ReductionOptions& options, cons
                  PhaseListener& phases)
 {
   const ReduceOptions& wanted = options.basis;
+  refuse_unkept_tolerance(wanted);
   if (has_free_masters(wanted.method)) return basis_of_own_modes(body, options, support, phases);
   Basis basis{.Q = {.Psi = {}, .modes = {}}};
   if (wanted.method == Method::guyan) {

@@ -12,6 +12,9 @@ namespace chladni::reduce {
 /// the mixed interface.
 bool has_free_masters(Method method);
 
+/// @throws chladni::Error when a tolerance is wanted of a method that cannot keep one.
+void refuse_unkept_tolerance(const ReduceOptions& wanted);
+
 /// The view of a body that the methods with free masters work on. The body must outlive it.
 WholeSystem whole_system(const FactoredBody& body);
 

@@ -31,6 +31,7 @@ MatrixXd zero_energy_motions(const ReducedModel& model)
 
 void refuse_indefinite_mass(const MatrixXd& M)
 {
+  if (M.rows() == 0) return;  // a harmonic that no master moves in, reduced by Guyan
   constexpr double round_off = 1e-8;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(M, Eigen::EigenvaluesOnly);
   const double least = mass.eigenvalues()[0], largest = mass.eigenvalues()[M.rows() - 1];

@@ -27,7 +27,8 @@ struct ModesByTolerance {
 
 /// The method and the number of its modes: fixed-interface modes, modes of the supported body
 /// (mixed interface), or free-interface modes (Rubin, MacNeal). Exactly one of `modes`, `cutoff_Hz`
-/// and `tolerance` is set, none for Guyan; Rubin and MacNeal take no tolerance.
+/// and `tolerance` is set, none for Guyan; Guyan, Rubin and MacNeal take no
+/// tolerance.
 struct ReduceOptions {
   Method method = Method::craig_bampton;
   std::optional<int> modes = {};
@@ -44,5 +45,12 @@ struct ReduceOptions {
   /// Without it, those up to the last mode of the basis, or up to the end of the tolerance's range.
   std::optional<double> certified_up_to_Hz = {};
 };
+
+/// Whether the modes of a method can be chosen so that they keep a tolerance.
+constexpr bool keeps_tolerances(Method method)
+{
+  return method == Method::craig_bampton || method == Method::mixed_interface ||
+         method == Method::automatic;
+}
 
 }  // namespace chladni::reduce

@@ -58,6 +58,7 @@ linear::Factorization factorized(const Body& body, Mat K_ss, const DofPartition&
 
 FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener& phases)
 {
+  refuse_unkept_tolerance(options.basis);
   phases.begin("partition");
   DofPartition dofs =
       partition(body.K, own_masters(body.K, body.masters), body.may_lack_masters ? 0 : 1);

@@ -97,7 +97,7 @@ reduce::Method method_of(const Table& table)
 
 void refuse_without_tolerance(const Table& table, const char* key, reduce::Method method)
 {
-  if (method != reduce::Method::rubin && method != reduce::Method::macneal) return;
+  if (reduce::keeps_tolerances(method)) return;
   table.refuse(key,
                "a tolerance needs method \"auto\", \"mixed-interface\" or \"craig-bampton\"; give "
                "modes or cutoff_Hz");

@@ -14,7 +14,8 @@ double deflation_shift(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M,
 /// @param K      [n x n], symmetric, positive definite on the complement of R
 /// @param R      [n x r] with K R = 0, R^T M R = I; r may be 0
 /// @param sigma  of the size of the lower eigenvalues: deflation_shift() of the whole problem
-/// @throws chladni::Error when K is singular beyond R.
+/// @throws chladni::Error when K is singular beyond R: not positive definite, or positive by
+///         round-off along a motion without mass.
 Eigen::LLT<Eigen::MatrixXd> deflated_factor(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M,
                                             const Eigen::MatrixXd& R, double sigma);
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -15,12 +17,35 @@ from chladni import _cms
 
 Monitor = Callable[[str, float], object]
 
+# PETSc is for one thread at a time, and a reduction lets other threads of Python go on.
+_petsc_in_use = threading.RLock()
 
+
+def _one_thread_at_a_time(function):
+    """The same function, which waits while another thread is in one of these."""
+
+    @functools.wraps(function)
+    def waiting(*args, **named):
+        with _petsc_in_use:
+            return function(*args, **named)
+
+    return waiting
+
+
+def _of_one_thread_at_a_time(methods):
+    for name, member in vars(methods).items():
+        if callable(member):
+            setattr(methods, name, _one_thread_at_a_time(member))
+    return methods
+
+
+@_of_one_thread_at_a_time
 class CMS:
     """The PETSc class CMS (chladni_cms.h): operators, interface, choice of modes, solve, results.
 
     Every method is collective on the communicator of the matrices unless it only sets a number. Errors are
-    `chladni.Error` with the words of the library.
+    `chladni.Error` with the words of the library. A thread waits while another one is in a method of any CMS; calls
+    of petsc4py itself know nothing of that. A monitor may read, but not change the object that calls it.
 
     Args:
         K, M: symmetric petsc4py matrices [n x n] of one size and layout, or sparse ones of scipy on one process;
@@ -29,15 +54,25 @@ class CMS:
     """
 
     def __init__(self, K, M, C=None):
-        stiffness = _petsc(K)
-        self._comm = stiffness.getComm()
+        stiffness, is_copy = _petsc(K)
+        self._comm = stiffness.getComm() if not is_copy else PETSc.COMM_SELF
         self._cms = _cms.CMS(stiffness.handle)
         self.set_operators(stiffness, M, C)
+        if is_copy:
+            stiffness.destroy()
+
+    def __del__(self):
+        self.__dict__.pop("_cms", None)  # its destruction waits for other threads too
 
     def set_operators(self, K, M, C=None) -> None:
         """Other matrices, or the same ones again when their values have changed."""
-        self._given = (_petsc(K), _petsc(M), None if C is None else _petsc(C))
-        self._cms.set_operators(*(0 if A is None else A.handle for A in self._given))
+        given = [(None, False) if A is None else _petsc(A) for A in (K, M, C)]
+        try:
+            self._cms.set_operators(*(0 if A is None else A.handle for A, _ in given))
+        finally:
+            for A, is_copy in given:
+                if is_copy:  # the CMS has a reference; what Python collects, PETSc would destroy at its end
+                    A.destroy()
 
     def set_interface(self, masters: Sequence[int]) -> None:
         """Global rows of the masters, each once, on any rank; their order is that of the reduced rows."""
@@ -188,6 +223,7 @@ class Reduction:
         return f"<Reduction to {len(self.masters)} masters and {self.n_modes} modes>"
 
 
+@_one_thread_at_a_time
 def reduce(K, M, masters: Sequence[int], *, C=None, method: str = "craig-bampton", modes: int | None = None,
            cutoff_Hz: float | None = None, tolerance: float | None = None, up_to_Hz: float | None = None,
            held: Sequence[int] = (), count: bool = False, rows: Sequence[int] | None = None, transformation: bool = True,
@@ -261,16 +297,19 @@ def _indices(numbers: Sequence[int]) -> list[int]:
     return array.ravel().tolist()
 
 
-def _petsc(A) -> PETSc.Mat:
-    """As a matrix of PETSc: its own, or of scipy on one process."""
+def _petsc(A) -> tuple[PETSc.Mat, bool]:
+    """As a matrix of PETSc: its own, or a copy of one of scipy on one process, and whether it is a copy."""
     if isinstance(A, PETSc.Mat):
         if not A.handle:
             raise ValueError("a matrix of petsc4py that was never created")
-        return A
+        return A, False
     if not hasattr(A, "tocsr"):
         raise TypeError(f"give petsc4py.PETSc.Mat or a sparse matrix of scipy, not {type(A).__name__}")
     csr = A.tocsr()
     if np.iscomplexobj(csr.data):
         raise TypeError("the matrix is complex; the reduction takes real ones")
+    if not csr.has_canonical_format:  # entries that stand twice mean their sum
+        csr = csr.copy()
+        csr.sum_duplicates()
     pattern = (csr.indptr.astype(PETSc.IntType), csr.indices.astype(PETSc.IntType))
-    return PETSc.Mat().createAIJ(csr.shape, csr=(*pattern, csr.data.astype(float)), comm=PETSc.COMM_SELF)
+    return PETSc.Mat().createAIJ(csr.shape, csr=(*pattern, csr.data.astype(float)), comm=PETSc.COMM_SELF), True

@@ -121,6 +121,45 @@ MatrixXd membrane(int n)
   return K;
 }
 
+/// A point without mass on one bar of direction (cos a, sin a), which is held by three masses in a
+/// chain; across the bar a spring and a mass.
+struct PointOnBar {
+  MatrixXd K = MatrixXd::Zero(5, 5), M = MatrixXd::Zero(5, 5);
+
+  PointOnBar(double a, double spring, double mass)
+  {
+    VectorXd bar = VectorXd::Zero(5), across = VectorXd::Zero(5);
+    bar.head(3) << std::cos(a), std::sin(a), -1.0;
+    across.head(2) << -std::sin(a), std::cos(a);
+    K = bar * bar.transpose() + spring * across * across.transpose();
+    K.bottomRightCorner(3, 3) += free_chain(3);
+    K(4, 4) += 1.0;
+    M.diagonal() << mass, mass, 1.0, 1.0, 1.0;
+  }
+};
+
+TEST(Eigenmodes, RefuseAMechanismWithoutMassAtEveryAngle)
+{
+  const MatrixXd none(5, 0);
+  for (int i = 0; i < 200; ++i) {
+    const PointOnBar point(0.0157 * i, 0.0, 0.0);
+    EXPECT_THROW(eigenmodes(point.K, point.M, none), Error) << 0.0157 * i;
+  }
+}
+
+/// Of the chain held at its end, with the point along as it moves: omega^2 = 0.19806, ...
+TEST(Eigenmodes, OfASoftSupportAreThereWhetherItHasAMassOrNot)
+{
+  const MatrixXd none(5, 0);
+  for (int i = 0; i < 200; ++i) {
+    const PointOnBar stiff(0.0157 * i, 1e-6, 0.0), soft(0.0157 * i, 1e-15, 1e-3);
+    EXPECT_NEAR(eigenmodes(stiff.K, stiff.M, none).lambda[0], 0.198062264195, 1e-8) << 0.0157 * i;
+    const Eigenmodes modes = eigenmodes(soft.K, soft.M, none);
+    EXPECT_LT(modes.lambda[0], 1e-11) << 0.0157 * i;
+    EXPECT_NEAR(modes.lambda[1], 0.198, 1e-3) << 0.0157 * i;
+  }
+}
+
 TEST(LowestEigenmodes, AreTheFirstOfAll)
 {
   constexpr int n = 15 * 15;

@@ -30,6 +30,7 @@ struct Solver {
   linear::testing::Chain chain = free_chain(n);
   petsc::IndexSet masters = master_set(chain.K, {0, n - 1});
   CMS cms = nullptr;
+  bool monitor_was_refused = false;
 
   Solver() { petsc::check(CMSCreate(PETSC_COMM_WORLD, &cms)); }
   ~Solver() { CMSDestroy(&cms); }
@@ -458,6 +459,41 @@ TEST(CMS, TellsTheMonitorOfEachPhase)
                                               "projection", "error estimates"}));
 }
 
+TEST(CMS, IsNotChangedByItsMonitor)
+{
+  Solver solver;
+  petsc::check(CMSMonitorSet(
+      solver.cms,
+      [](CMS cms, const char*, PetscReal, void* refused) -> PetscErrorCode {
+        const auto is_refused = [](PetscErrorCode code) {
+          return code == PETSC_ERR_ORDER && message(code).find("by a monitor") != std::string::npos;
+        };
+        CMS same = cms;
+        *static_cast<bool*>(refused) = is_refused(CMSReset(cms)) && is_refused(CMSSolve(cms)) &&
+                                       is_refused(CMSSetDimensions(cms, 3)) &&
+                                       is_refused(CMSSetSylvester(cms, PETSC_TRUE)) &&
+                                       is_refused(CMSDestroy(&same));
+        return 0;
+      },
+      &solver.monitor_was_refused));
+  ASSERT_EQ(solver.solve(), 0);
+  EXPECT_TRUE(solver.monitor_was_refused);
+}
+
+TEST(CMS, CountsWhenThatIsAskedForAfterASolution)
+{
+  Solver solver;
+  PetscInt n_bounds = 0;
+  const PetscReal* bounds = nullptr;
+  ASSERT_EQ(solver.solve(), 0);
+  ASSERT_EQ(CMSGetErrorBounds(solver.cms, &n_bounds, &bounds), 0);
+  EXPECT_EQ(n_bounds, 0);
+  ASSERT_EQ(CMSSetSylvester(solver.cms, PETSC_TRUE), 0);
+  ASSERT_EQ(CMSSolve(solver.cms), 0);
+  ASSERT_EQ(CMSGetErrorBounds(solver.cms, &n_bounds, &bounds), 0);
+  EXPECT_GT(n_bounds, 0);
+}
+
 TEST(CMS, SaysThatTheMonitorFailed)
 {
   Solver solver;
@@ -581,6 +617,37 @@ TEST(CMS, TakesTheVariantsOfAij)
   }
 }
 
+/// Rows whose columns fall, and of each entry two parts that MatMult adds up.
+TEST(CMS, AddsUpEntriesThatStandTwiceInAnyOrder)
+{
+  if (petsc::size(PETSC_COMM_WORLD) > 1) return;  // on several ranks PETSc takes no such rows
+  Solver plain;
+  ASSERT_EQ(plain.solve(), 0);
+  PetscInt n_modes = 0, n_again = 0;
+  const PetscReal *f = nullptr, *again = nullptr;
+  ASSERT_EQ(CMSGetFrequencies(plain.cms, &n_modes, &f), 0);
+  Solver twice;
+  std::vector<PetscInt> first_of_row{0}, columns;
+  std::vector<double> values;
+  linear::for_local_entries(twice.chain.K, [&](PetscInt row, PetscInt column, double value) {
+    const auto at = columns.begin() + (row < std::ssize(first_of_row) ? first_of_row[row] : 0);
+    const auto place = at - columns.begin();
+    columns.insert(at, {column, column});
+    values.insert(values.begin() + place, {0.25 * value, 0.75 * value});
+    first_of_row.resize(std::size_t(row) + 2);
+    first_of_row.back() = static_cast<PetscInt>(columns.size());
+  });
+  petsc::Matrix K;
+  ASSERT_EQ(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, first_of_row.data(), columns.data(),
+                                      values.data(), K.put()),
+            0);
+  twice.chain.K = std::move(K);
+  ASSERT_EQ(twice.solve(), 0);
+  ASSERT_EQ(CMSGetFrequencies(twice.cms, &n_again, &again), 0);
+  ASSERT_EQ(n_again, n_modes);
+  for (PetscInt i = 0; i < n_modes; ++i) EXPECT_NEAR(again[i], f[i], 1e-12 * f[i]) << i;
+}
+
 TEST(CMS, RefusesAnUnsymmetricOperator)
 {
   Solver solver;
@@ -667,6 +734,21 @@ TEST(CMS, RefusesMastersWithoutSense)
                                  mistake.masters.data(), PETSC_COPY_VALUES, masters.put()));
     solver.masters = std::move(masters);
     expect_refused(solver, mistake.words);
+  }
+}
+
+TEST(CMS, RefusesAToleranceThatItsMethodCannotKeep)
+{
+  for (const char* method : {CMSGUYAN, CMSRUBIN, CMSMACNEAL}) {
+    Solver solver;
+    petsc::check(CMSSetType(solver.cms, method));
+    petsc::check(CMSSetTolerance(solver.cms, 1e-3, 0.1));
+    expect_refused(solver, std::string("the method ") + method + ", which cannot keep one");
+    Solver later;  // whose factor is there already
+    ASSERT_EQ(later.solve(), 0);
+    petsc::check(CMSSetTolerance(later.cms, 1e-3, 0.1));
+    petsc::check(CMSSetType(later.cms, method));
+    EXPECT_NE(CMSSolve(later.cms), 0);
   }
 }
 

@@ -251,6 +251,90 @@ std::vector<double> lowest(CMS cms, const char* type, int n)
   return lambda;
 }
 
+/// Three sectors about the axis (1, 1, 1), whose turn takes x to y, y to z, z to x: a grounded point
+/// on the axis (rows 0 to 2), a point at each edge, springs alike in all directions.
+struct TiltedSector {
+  TiltedSector()
+  {
+    MatrixXd graph(3, 3);
+    graph << 1.0 / 3.0 + 1.5, -1.0, -0.5,  //
+        -1.0, 3.0, -2.0,                   //
+        -0.5, -2.0, 2.5;
+    MatrixXd stiffness = MatrixXd::Zero(9, 9), mass = MatrixXd::Zero(9, 9), R(3, 3);
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b)
+        stiffness.block<3, 3>(3 * a, 3 * b).diagonal().setConstant(graph(a, b));
+    mass.diagonal() << VectorXd::Constant(3, 1.0 / 3.0), VectorXd::Constant(6, 0.5);
+    R << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    K = distributed(stiffness);
+    M = distributed(mass);
+    R.transposeInPlace();  // row by row
+    petsc::check(CMSCreate(PETSC_COMM_WORLD, &cms));
+    petsc::check(CMSSetOperators(cms, K, M, nullptr));
+    petsc::check(CMSSetInterface(cms, shared_out({0, 1, 2})));
+    petsc::check(CMSSetCyclic(cms, 3, shared_out({0, 1, 2, 3, 4, 5}), shared_out({0, 1, 2, 6, 7, 8}),
+                              3, R.data()));
+  }
+  ~TiltedSector() { CMSDestroy(&cms); }
+  TiltedSector(const TiltedSector&) = delete;
+  TiltedSector& operator=(const TiltedSector&) = delete;
+
+  petsc::Matrix K, M;
+  CMS cms = nullptr;
+};
+
+/// With the point on the axis held, each direction is a ring of three masses 1, each tied by 1.5 to
+/// the ground and by 2 to its neighbours: 1.5, 7.5, 7.5.
+TEST(CMSCyclic, ANodeOnAnObliqueAxisIsHeldInAllItsRowsOrRefused)
+{
+  for (const PetscInt order : {0, 1}) {
+    TiltedSector sector;
+    petsc::check(CMSSetHarmonic(sector.cms, order));
+    petsc::check(CMSSetType(sector.cms, CMSMIXED));
+    petsc::check(CMSSetDimensions(sector.cms, 2));
+    for (const std::vector<PetscInt>& some :
+         {std::vector<PetscInt>{0}, {1}, {2}, {0, 1}, {1, 2}, {2, 0}}) {
+      petsc::check(CMSSetHeld(sector.cms, shared_out(some)));
+      const PetscErrorCode code = CMSSolve(sector.cms);
+      ASSERT_NE(code, 0) << "harmonic " << order << ", first held " << some.front();
+      EXPECT_NE(message(code).find("name all of them or none"), std::string::npos) << message(code);
+    }
+    petsc::check(CMSSetHeld(sector.cms, shared_out({2, 0, 1})));
+    petsc::check(CMSSolve(sector.cms));
+    PetscInt n = 0;
+    const PetscReal* f = nullptr;
+    petsc::check(CMSGetFrequencies(sector.cms, &n, &f));
+    ASSERT_GE(n, 2) << "harmonic " << order;
+    const double first = std::pow(two_pi * f[0], 2), last = std::pow(two_pi * f[n - 1], 2);
+    EXPECT_NEAR(first, 1.5, 1e-9) << "harmonic " << order;
+    EXPECT_LT(std::min(std::abs(last - 1.5), std::abs(last - 7.5)), 1e-9) << last;
+    petsc::check(CMSSetInterface(sector.cms, shared_out({0, 2})));
+    EXPECT_NE(CMSSolve(sector.cms), 0) << "harmonic " << order;
+  }
+}
+
+/// The hub of a ring moves in no harmonic from 2 on: with it as the only node, all methods have no
+/// master there.
+TEST(CMSCyclic, WithoutMastersEveryMethodGivesItsModesAlone)
+{
+  for (const char* method : {CMSGUYAN, CMSCRAIGBAMPTON, CMSMIXED, CMSRUBIN}) {
+    Solver solver(6);
+    petsc::check(solver.set_masters({0, 1, 2}));
+    petsc::check(CMSSetHarmonic(solver.cms, 2));
+    petsc::check(CMSSetType(solver.cms, method));
+    petsc::check(CMSSetDimensions(solver.cms, 3));
+    ASSERT_EQ(CMSSolve(solver.cms), 0) << method;
+    PetscInt n_masters = -1, n_modes = -1;
+    petsc::check(CMSGetDimensions(solver.cms, &n_masters, &n_modes));
+    EXPECT_EQ(n_masters, 0) << method;
+    if (method == std::string(CMSGUYAN)) {
+      EXPECT_EQ(n_modes, 0);
+    } else {
+      EXPECT_GE(n_modes, 3) << method;  // the partner of the last one too
+    }
+  }
+}
+
 TEST(CMSCyclic, GivesMatricesThatEigensolversTake)
 {
   Solver solver(7);

@@ -1,10 +1,13 @@
 """Reductions of matrices of scipy and petsc4py; on several ranks under mpirun. Usage: reduction_test.py"""
 
+import pathlib
 import pickle
+import resource
 import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -100,6 +103,7 @@ class Reduction(unittest.TestCase):
             ([], "0 masters of 400 rows", {}),
             ([0], "Unknown CMS type", {"method": "gauyan"}),
             ([0], "modes asked of 399 slaves", {"modes": 1000}),
+            ([0], "method rubin, which cannot keep one", {"method": "rubin", "tolerance": 1e-3, "up_to_Hz": 1.0}),
         ):
             with self.subTest(words), self.assertRaisesRegex(chladni.Error, words):
                 chladni.reduce(K, M, masters, **more)
@@ -116,6 +120,51 @@ class Reduction(unittest.TestCase):
             chladni.reduce(K, M, MASTERS, modes=3, cutoff_Hz=1.0)
         with self.assertRaises(ValueError):
             chladni.reduce(PETSc.Mat(), M, MASTERS)
+
+    def test_adds_up_entries_that_stand_twice_as_scipy_does(self):
+        def in_halves(A):
+            share = np.where(np.arange(A.nnz) % 2 == 0, 0.25, 0.5)
+            both = np.stack([share * A.data, (1.0 - share) * A.data], 1).ravel()
+            return scipy.sparse.csr_matrix((both, np.repeat(A.indices, 2), 2 * A.indptr), A.shape)
+
+        expected = chladni.reduce(K, M, MASTERS, modes=4)
+        for stiffness, mass in ((in_halves(K), M), (K, in_halves(M).tocoo()), (K, in_halves(M))):
+            reduced = chladni.reduce(stiffness, mass, MASTERS, modes=4)
+            np.testing.assert_allclose(reduced.frequencies, expected.frequencies, rtol=1e-12)
+            self.assertEqual(stiffness.nnz + mass.nnz, K.nnz + M.nnz + (M.nnz if stiffness is K else K.nnz))  # left as they were
+        halves = in_halves(K)
+        as_it_is = PETSc.Mat().createAIJWithArrays(K.shape, (halves.indptr, halves.indices, halves.data), comm=PETSc.COMM_SELF)
+        reduced = chladni.reduce(as_it_is, M, MASTERS, modes=4)
+        np.testing.assert_allclose(reduced.frequencies, expected.frequencies, rtol=1e-12)
+
+    @unittest.skipUnless(RANKS == 1, "on one rank")
+    def test_takes_no_memory_that_stays(self):
+        def resident():
+            return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize()
+
+        large = chain(5000)
+        for _ in range(15):
+            chladni.reduce(*large, [0, 4999], method="guyan", transformation=False)
+        before, n = resident(), 60
+        for _ in range(n):
+            chladni.reduce(*large, [0, 4999], method="guyan", transformation=False)
+        matrices = sum(A.data.nbytes + A.indices.nbytes + A.indptr.nbytes for A in large)
+        self.assertLess(resident() - before, 0.1 * n * matrices)
+
+    @unittest.skipUnless(RANKS == 1, "on one rank")
+    def test_of_two_threads_waits_for_the_other(self):
+        results = []
+
+        def work():
+            results.extend(chladni.reduce(K, M, MASTERS, modes=6).frequencies[0] for _ in range(10))
+
+        threads = [threading.Thread(target=work) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(results), 30)
+        np.testing.assert_allclose(results, results[0], rtol=1e-9)
 
     def test_tells_its_monitor_and_ends_with_what_it_raises(self):
         phases = []
@@ -193,6 +242,26 @@ class Cms(unittest.TestCase):
         cms.reset()
         with self.assertRaises(chladni.Error):
             cms.frequencies()
+
+    def test_counts_when_that_is_asked_for_after_a_solution(self):
+        cms = chladni.CMS(K, M)
+        cms.set_interface(MASTERS)
+        cms.set_dimensions(5)
+        cms.solve()
+        self.assertEqual(len(cms.error_bounds()), 0)
+        cms.set_sylvester(True)
+        cms.solve()
+        self.assertGreater(len(cms.error_bounds()), 0)
+
+    def test_is_not_changed_by_its_monitor(self):
+        cms = chladni.CMS(K, M)
+        cms.set_interface(MASTERS)
+        for change in (cms.reset, cms.solve, lambda: cms.set_dimensions(3), lambda: cms.set_interface([0]),
+                       lambda: cms.set_sylvester(True), lambda: cms.set_operators(M, K)):  # fmt: skip
+            with self.assertRaisesRegex(chladni.Error, "called by a monitor"):
+                cms.solve(lambda phase, seconds, change=change: change())
+        cms.solve()
+        self.assertEqual(cms.dimensions(), (3, 20))
 
     def test_takes_options_of_petsc(self):
         options = PETSc.Options()

@@ -294,6 +294,20 @@ Failures check(const Reference& exact, int n, double target, const Eigenpairs& p
   return failures;
 }
 
+double least_of_slaves(const Reference& exact)
+{
+  std::vector<int> slaves;
+  for (int i = 0; i < exact.pencil.n; ++i)
+    if (std::ranges::find(exact.pencil.masters, i) == exact.pencil.masters.end())
+      slaves.push_back(i);
+  const MatrixXd K_ss = exact.K(slaves, slaves);
+  if (!(K_ss.diagonal().minCoeff() > 0.0)) return 0.0;
+  const VectorXd scale = K_ss.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
+      scale.asDiagonal() * K_ss * scale.asDiagonal(), Eigen::EigenvaluesOnly);
+  return std::max(0.0, eigen.eigenvalues()[0]);
+}
+
 Failures compare(const Reference& exact, const Answer& all, const Answer& one)
 {
   constexpr double same = 1e-9;
@@ -333,7 +347,13 @@ Failures compare(const Reference& exact, const Answer& all, const Answer& one)
   const double own_mass = exact.M.diagonal()(exact.pencil.masters).maxCoeff();
   const double of_K = difference(all.K_r, one.K_r, 0.0);
   const double of_M = difference(all.M_r, one.M_r, own_mass);
-  if (of_K > same || of_M > same) differs(fmt::format("K_G by {:.1e}, M_G by {:.1e}", of_K, of_M));
+  // Ranks eliminate in other orders; a solution has the round-off eps / least of it. Of Hilbert's
+  // slaves that is 2.5e-8, and LAPACK errs by 8e-9.
+  constexpr double most = 1e-7;
+  const double of_solutions =
+      std::numeric_limits<double>::epsilon() / std::max(least_of_slaves(exact), 1e-16);
+  const double allowed = std::clamp(of_solutions, same, most);
+  if (of_K > allowed || of_M > allowed) differs(fmt::format("K_G by {:.1e}, M_G by {:.1e}", of_K, of_M));
   return failures;
 }
 

@@ -20,6 +20,9 @@ struct Reference {
 };
 Reference reference(const Pencil& pencil);
 
+/// The lowest eigenvalue of K_ss with its diagonal made 1; 0 where that cannot be.
+double least_of_slaves(const Reference& exact);
+
 /// Everything that a projection promises; of MacNeal, which is none, what is left of it.
 Failures check(const Reference& exact, const Reduction& how, const Answer& answer);
 

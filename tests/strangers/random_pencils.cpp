@@ -199,16 +199,7 @@ void draw_masters(Dice& dice, Pencil& pencil, bool with_hub)
 bool moves_when_held(const Reference& exact)
 {
   constexpr double nearly = 1e-9;  // of a matrix with unit diagonal
-  std::vector<int> slaves;
-  for (int i = 0; i < exact.pencil.n; ++i)
-    if (std::ranges::find(exact.pencil.masters, i) == exact.pencil.masters.end())
-      slaves.push_back(i);
-  const MatrixXd K_ss = exact.K(slaves, slaves);
-  if (!(K_ss.diagonal().minCoeff() > 0.0)) return true;
-  const VectorXd scale = K_ss.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
-      scale.asDiagonal() * K_ss * scale.asDiagonal(), Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues()[0] < nearly;
+  return least_of_slaves(exact) < nearly;
 }
 
 double in_Hz(double lambda)
