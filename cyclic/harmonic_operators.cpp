@@ -189,15 +189,15 @@ std::vector<PetscInt> SectorCoordinates::alike(PetscInt row) const
   for (Eigen::Index i = 0; i < b; ++i) {
     if (std::ranges::find(kept_, static_cast<int>(i)) != kept_.end()) continue;
     for (std::size_t j = 0; j < kept_.size(); ++j) {
-      if (std::abs(E_(i, static_cast<Eigen::Index>(j))) > round_off)
+      if (std::abs(E_(i, static_cast<Eigen::Index>(j))) > round_off) {
         std::ranges::replace(group, Eigen::Index{group[std::size_t(i)]},
                              Eigen::Index{group[std::size_t(kept_[j])]});
+      }
     }
   }
   std::vector<PetscInt> rows;
   for (Eigen::Index i = 0; i < b; ++i)
-    if (group[std::size_t(i)] == group[std::size_t(place)])
-      rows.push_back(*(it - place + i));
+    if (group[std::size_t(i)] == group[std::size_t(place)]) rows.push_back(*(it - place + i));
   return rows.size() > 1 ? rows : std::vector<PetscInt>{};
 }
 

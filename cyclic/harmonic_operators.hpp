@@ -50,8 +50,8 @@ class SectorCoordinates {
   PetscInt row_of(PetscInt coordinate) const;
   /// The name of a coordinate for messages, as "row 17 of K, in y".
   std::string name_of(PetscInt coordinate) const;
-  /// The rows of a shared node that move together with this one, itself among them, where not all of
-  /// them have coordinates. Which of them have is a choice of pivots, so that an interface or a
+  /// The rows of a shared node that move together with this one, itself among them, where not all
+  /// of them have coordinates. Which of them have is a choice of pivots, so that an interface or a
   /// support names all of them or none. Empty where each row that moves has a coordinate of its
   /// own, as about an axis of coordinates.
   std::vector<PetscInt> alike(PetscInt row) const;

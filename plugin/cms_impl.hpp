@@ -120,8 +120,8 @@ class CMSPhases : public reduce::PhaseListener {
 /// The options `-PREFIXcms_...` of the object, in its own database, for the solvers inside.
 linear::OptionSource option_source(CMS cms);
 
-/// An error while CMSSetUp or CMSSolve is at work, so that a monitor cannot take away what they work
-/// on; 0 otherwise.
+/// An error while CMSSetUp or CMSSolve is at work, so that a monitor cannot take away what they
+/// work on; 0 otherwise.
 PetscErrorCode refuse_at_work(CMS cms, const char* function);
 
 /// Does the work of CMSSetUp.

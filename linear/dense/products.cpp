@@ -68,7 +68,10 @@ auto column(const StridedMatrix<Entry>& A)
   return Spread<Of>(A.values, A.n_rows, Eigen::InnerStride<>(A.row_step));
 }
 
-double times(double a, double b) { return a * b; }
+double times(double a, double b)
+{
+  return a * b;
+}
 
 /// Without the question whether the numbers are finite.
 std::complex<double> times(const std::complex<double>& a, const std::complex<double>& b)
@@ -87,8 +90,7 @@ void multiply_small(const StridedMatrix<const Entry>& A, const StridedMatrix<con
     for (Index i = 0; i < C.n_rows; ++i) {
       const Entry* a = A.values + i * A.row_step;
       Entry sum{};
-      for (Index p = 0; p < A.n_columns; ++p)
-        sum += times(a[p * A.column_step], b[p * B.row_step]);
+      for (Index p = 0; p < A.n_columns; ++p) sum += times(a[p * A.column_step], b[p * B.row_step]);
       Entry& c_ij = c[i * C.row_step];
       c_ij = times(factor, sum) + (into == Into::added_to ? c_ij : Entry{});
     }
@@ -147,16 +149,15 @@ void add_large(const StridedMatrix<const Entry>& A, const StridedMatrix<const En
                Entry factor, const StridedMatrix<Entry>& C)
 {
   using Eigen::ColMajor, Eigen::RowMajor;
-  if (stands_in_columns(A)) {
+  if (stands_in_columns(A))
     if (stands_in_columns(B))
       add_large<Entry, ColMajor, ColMajor>(A, B, factor, C);
     else
       add_large<Entry, ColMajor, RowMajor>(A, B, factor, C);
-  } else if (stands_in_columns(B)) {
+  else if (stands_in_columns(B))
     add_large<Entry, RowMajor, ColMajor>(A, B, factor, C);
-  } else {
+  else
     add_large<Entry, RowMajor, RowMajor>(A, B, factor, C);
-  }
 }
 
 /// Of factors and a C that stand in columns or in rows.

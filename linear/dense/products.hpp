@@ -7,8 +7,9 @@
 // fills in its products anew for each expression, with a version for small, for large and for thin
 // factors: that was a third of what the compiler did. Every source is given this header by CMake
 // (chladni_compile) and writes `C.noalias() += A.transpose() * B` as ever; programs
-// without it get the same products from Eigen. docs/explanation/decisions/0011-products-are-compiled-once.md
-// has what was measured. Products of small fixed sizes stay expressions.
+// without it get the same products from Eigen.
+// docs/explanation/decisions/0011-products-are-compiled-once.md has what was measured. Products of
+// small fixed sizes stay expressions.
 
 namespace chladni::linear {
 
@@ -39,14 +40,13 @@ void multiply(const StridedMatrix<const std::complex<double>>& A,
 template <typename Matrix>
 auto strided(const Matrix& A, bool is_conjugated)
 {
-  return StridedMatrix<const typename Matrix::Scalar>{A.data(), A.rows(), A.cols(),
+  return StridedMatrix<const typename Matrix::Scalar>{A.data(),      A.rows(),      A.cols(),
                                                       A.rowStride(), A.colStride(), is_conjugated};
 }
 
 /// Both factors have entries of the one kind that `multiply` takes.
 template <typename Left, typename Right>
-concept Multipliable =
-    std::same_as<typename Left::Scalar, typename Right::Scalar> &&
+concept Multipliable = std::same_as<typename Left::Scalar, typename Right::Scalar> &&
     (std::same_as<typename Left::Scalar, double> ||
      std::same_as<typename Left::Scalar, std::complex<double>>);
 
@@ -99,13 +99,15 @@ struct CompiledProduct {
 namespace Eigen::internal {
 
 template <typename Left, typename Right>
-  requires chladni::linear::Multipliable<Left, Right>
+requires chladni::linear::Multipliable<Left, Right>
 struct generic_product_impl<Left, Right, DenseShape, DenseShape, GemmProduct>
-    : chladni::linear::CompiledProduct<Left, Right> {};
+    : chladni::linear::CompiledProduct<Left, Right> {
+};
 
 template <typename Left, typename Right>
-  requires chladni::linear::Multipliable<Left, Right>
+requires chladni::linear::Multipliable<Left, Right>
 struct generic_product_impl<Left, Right, DenseShape, DenseShape, GemvProduct>
-    : chladni::linear::CompiledProduct<Left, Right> {};
+    : chladni::linear::CompiledProduct<Left, Right> {
+};
 
 }  // namespace Eigen::internal

@@ -9,8 +9,9 @@ namespace chladni::linear {
 /// @note   Collective.
 petsc::Matrix as_aij(Mat A);
 
-/// A plain AIJ matrix in whose rows columns ascend: the same one if they do, else a copy, in which what
-/// stands twice is added up, as MatMult does. MatCreateSeqAIJWithArrays takes rows as they are.
+/// A plain AIJ matrix in whose rows columns ascend: the same one if they do, else a copy, in which
+/// what stands twice is added up, as MatMult does. MatCreateSeqAIJWithArrays takes rows as they
+/// are.
 /// @note   Collective.
 petsc::Matrix with_ascending_rows(petsc::Matrix A);
 

@@ -30,7 +30,10 @@ Dense<typename Left::Scalar> by_definition(const Left& A, const Right& B)
 }
 
 /// Round-off of sums of as many terms between -1 and 1.
-double round_off(Index n_terms) { return 1e-15 * (1.0 + 4.0 * double(n_terms)); }
+double round_off(Index n_terms)
+{
+  return 1e-15 * (1.0 + 4.0 * double(n_terms));
+}
 
 template <typename Target, typename Left, typename Right>
 void expect_product(Target&& C, const Left& A, const Right& B, const std::string& which)
@@ -83,17 +86,18 @@ void expect_products_of_all_shapes(Entry factor)
   for (const Index m : {0, 1, 2, 7, 33}) {
     for (const Index n : {0, 1, 3, 30}) {
       for (const Index k : {0, 1, 2, 9, 40}) {
-        const std::string shape = std::to_string(m) + " x " + std::to_string(k) + " x " +
-                                  std::to_string(n) + ", ";
-        Dense<Entry> C = Dense<Entry>::Random(m, n), wide = Dense<Entry>::Random(3 * m + 2, 2 * n + 2);
+        const std::string shape =
+            std::to_string(m) + " x " + std::to_string(k) + " x " + std::to_string(n) + ", ";
+        Dense<Entry> C = Dense<Entry>::Random(m, n),
+                     wide = Dense<Entry>::Random(3 * m + 2, 2 * n + 2);
         InRows<Entry> C_rows = C;
         expect_products(C, k, factor, shape);
         expect_products(C_rows, k, factor, shape + "into rows, ");
         expect_products(wide.block(1, 1, m, n), k, factor, shape + "into a block, ");
         using Steps = Eigen::Stride<Dynamic, Dynamic>;
-        expect_products(Eigen::Map<Dense<Entry>, 0, Steps>(wide.data(), m, n,
-                                                           Steps(2 * wide.outerStride(), 3)),
-                        k, factor, shape + "into any steps, ");
+        expect_products(
+            Eigen::Map<Dense<Entry>, 0, Steps>(wide.data(), m, n, Steps(2 * wide.outerStride(), 3)),
+            k, factor, shape + "into any steps, ");
       }
     }
   }

@@ -251,8 +251,8 @@ std::vector<double> lowest(CMS cms, const char* type, int n)
   return lambda;
 }
 
-/// Three sectors about the axis (1, 1, 1), whose turn takes x to y, y to z, z to x: a grounded point
-/// on the axis (rows 0 to 2), a point at each edge, springs alike in all directions.
+/// Three sectors about the axis (1, 1, 1), whose turn takes x to y, y to z, z to x: a grounded
+/// point on the axis (rows 0 to 2), a point at each edge, springs alike in all directions.
 struct TiltedSector {
   TiltedSector()
   {
@@ -272,8 +272,8 @@ struct TiltedSector {
     petsc::check(CMSCreate(PETSC_COMM_WORLD, &cms));
     petsc::check(CMSSetOperators(cms, K, M, nullptr));
     petsc::check(CMSSetInterface(cms, shared_out({0, 1, 2})));
-    petsc::check(CMSSetCyclic(cms, 3, shared_out({0, 1, 2, 3, 4, 5}), shared_out({0, 1, 2, 6, 7, 8}),
-                              3, R.data()));
+    petsc::check(CMSSetCyclic(cms, 3, shared_out({0, 1, 2, 3, 4, 5}),
+                              shared_out({0, 1, 2, 6, 7, 8}), 3, R.data()));
   }
   ~TiltedSector() { CMSDestroy(&cms); }
   TiltedSector(const TiltedSector&) = delete;
@@ -329,9 +329,8 @@ TEST(CMSCyclic, WithoutMastersEveryMethodGivesItsModesAlone)
     EXPECT_EQ(n_masters, 0) << method;
     if (method == std::string(CMSGUYAN)) {
       EXPECT_EQ(n_modes, 0);
-    } else {
+    } else
       EXPECT_GE(n_modes, 3) << method;  // the partner of the last one too
-    }
   }
 }
 

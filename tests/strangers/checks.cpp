@@ -353,7 +353,8 @@ Failures compare(const Reference& exact, const Answer& all, const Answer& one)
   const double of_solutions =
       std::numeric_limits<double>::epsilon() / std::max(least_of_slaves(exact), 1e-16);
   const double allowed = std::clamp(of_solutions, same, most);
-  if (of_K > allowed || of_M > allowed) differs(fmt::format("K_G by {:.1e}, M_G by {:.1e}", of_K, of_M));
+  if (of_K > allowed || of_M > allowed)
+    differs(fmt::format("K_G by {:.1e}, M_G by {:.1e}", of_K, of_M));
   return failures;
 }
 

@@ -156,8 +156,9 @@ void SupernodalFactor::in_panels(const SlotExchange& exchange, LocalColumns X, c
 
 void SupernodalFactor::solve(const SupernodalPart& part, LocalColumns X)
 {
-  in_panels(part.exchange, X,
-            [&](Panels block) { sweep(block, part.supernodes, active_supernodes(block, part.supernodes)); });
+  in_panels(part.exchange, X, [&](Panels block) {
+    sweep(block, part.supernodes, active_supernodes(block, part.supernodes));
+  });
 }
 
 void SupernodalFactor::solve_half(const SupernodalPart& part, LocalColumns X)
