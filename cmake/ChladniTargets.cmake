@@ -23,17 +23,20 @@ function(chladni_compile target)
   if(CHLADNI_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
-  if(target STREQUAL chladni_products)
-    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/linear/dense/precompiled.hpp)
-    return()
-  endif()
-  target_link_libraries(${target} PRIVATE chladni::products)
-  target_compile_options(${target} PRIVATE -fPIC)  # programs too, or Clang takes no compiled header of a library
+  # Clang takes a compiled header of other optimisation (but none), not of other visibility, and a program takes none of
+  # a library unless both are -fPIC. GCC gains nothing by one; builds with sanitizers optimise their libraries differently.
   get_target_property(visibility ${target} CXX_VISIBILITY_PRESET)
-  if(visibility STREQUAL CMAKE_CXX_VISIBILITY_PRESET)
-    target_precompile_headers(${target} REUSE_FROM chladni_products)
-  else()  # a compiled header is for one
+  if(NOT target STREQUAL chladni_products)
+    target_link_libraries(${target} PRIVATE chladni::products)
+  endif()
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL Clang OR CMAKE_BUILD_TYPE STREQUAL None
+     OR NOT visibility STREQUAL CMAKE_CXX_VISIBILITY_PRESET)
     target_compile_options(${target} PRIVATE -include ${PROJECT_SOURCE_DIR}/linear/dense/products.hpp)
+  elseif(target STREQUAL chladni_products)
+    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/linear/dense/precompiled.hpp)
+  else()
+    target_compile_options(${target} PRIVATE -fPIC)
+    target_precompile_headers(${target} REUSE_FROM chladni_products)
   endif()
 endfunction()
 

@@ -93,21 +93,23 @@ PETSC_EXTERN PetscErrorCode CMSGetType(CMS cms, CMSType* type);
 /* Set the number of modes, directly, by a cut-off or by a tolerance; the last of the three calls
    counts. -cms_nmodes N | -cms_cutoff F | -cms_tol T -cms_tol_upto F; F in Hz: lambda = (2 pi F)^2.
    A tolerance keeps the estimated relative error of all frequencies up to F below T; the mixed
-   interface takes all modes up to F. CMSAUTO needs a tolerance. */
+   interface takes all modes up to F. CMSAUTO needs a tolerance; Guyan, Rubin and MacNeal cannot
+   keep one and are refused with it. */
 PETSC_EXTERN PetscErrorCode CMSSetDimensions(CMS cms, PetscInt nmodes);
 PETSC_EXTERN PetscErrorCode CMSSetCutoff(CMS cms, PetscReal f);
 PETSC_EXTERN PetscErrorCode CMSSetTolerance(CMS cms, PetscReal tol, PetscReal upto);
 /* Returns the numbers of masters (valid after CMSSetUp) and of modes (after CMSSolve). */
 PETSC_EXTERN PetscErrorCode CMSGetDimensions(CMS cms, PetscInt* nmasters, PetscInt* nmodes);
 /* Sets whether CMSSolve counts eigenvalues by Sylvester's law, with two to four more
-   factorisations. -cms_sylvester */
+   factorisations; asked for after a solution, CMSSolve solves again. -cms_sylvester */
 PETSC_EXTERN PetscErrorCode CMSSetSylvester(CMS cms, PetscBool count);
 
 PETSC_EXTERN PetscErrorCode CMSSetOptionsPrefix(CMS cms, const char prefix[]);
 PETSC_EXTERN PetscErrorCode CMSAppendOptionsPrefix(CMS cms, const char prefix[]);
 PETSC_EXTERN PetscErrorCode CMSGetOptionsPrefix(CMS cms, const char* prefix[]);
 PETSC_EXTERN PetscErrorCode CMSSetFromOptions(CMS cms);
-/* Sets a function to be called at the end of each phase. -cms_monitor prints the phases. */
+/* Sets a function to be called at the end of each phase. It may not change the object: calls that
+   would are refused with PETSC_ERR_ORDER. -cms_monitor prints the phases. */
 PETSC_EXTERN PetscErrorCode CMSMonitorSet(CMS cms, CMSMonitorFunction monitor, void* ctx);
 /* Sets a function that each rank calls by itself during a long phase. An error that it returns
    stops the solution: at once on one rank, at the end of the phase on several. */

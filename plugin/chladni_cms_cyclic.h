@@ -21,8 +21,9 @@
    one sector takes row k of low to row k of high (global rows of K in any order, on any rank). Rows
    come in blocks of b, the components of a node; rotation is their R [b x b, row by row], or NULL
    if the components turn with the sector, as scalars and cylindrical components do. A node that all
-   sectors share, such as one on the axis, stands in low and in high at the same place. count = 0
-   removes the declaration. */
+   sectors share, such as one on the axis, stands in low and in high at the same place; of its rows
+   that an oblique axis turns into each other, all are masters (and held) or none. count = 0 removes
+   the declaration. */
 PETSC_EXTERN PetscErrorCode CMSSetCyclic(CMS cms, PetscInt count, IS low, IS high, PetscInt b,
                                          const PetscReal rotation[]);
 /* Sets the harmonic, 0 .. count / 2; 0 by default. Deletes the results of another harmonic.

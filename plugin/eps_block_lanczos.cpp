@@ -23,13 +23,27 @@ namespace {
 constexpr const char* type_name = "blocklanczos";
 
 struct Options {
-  PetscInt block_size;
-  PetscReal keep;  ///< share of the surplus Ritz vectors that a restart keeps
+  PetscInt block_size;  ///< as asked for; 0: what the subspace has room for
+  PetscReal keep;       ///< share of the surplus Ritz vectors that a restart keeps
 };
 
 Options* options_of(EPS eps)
 {
   return static_cast<Options*>(eps->data);
+}
+
+/// Vectors solved at a time: as many as were asked for, else 8, or fewer where restarts would leave
+/// no room for some blocks.
+PetscInt block_size(EPS eps)
+{
+  constexpr PetscInt most = 8, blocks_beyond = 8;
+  PetscInt b = options_of(eps)->block_size;
+  if (b == 0) {
+    b = most;
+    if (eps->ncv != petsc::automatic && eps->ncv < eps->n)
+      b = std::clamp<PetscInt>((eps->ncv - eps->nev) / blocks_beyond, 1, most);
+  }
+  return std::min(b, eps->n);
 }
 
 PetscErrorCode check_problem(EPS eps)
@@ -53,7 +67,7 @@ PetscErrorCode check_problem(EPS eps)
 PetscErrorCode set_up(EPS eps)
 {
   PetscBool sinvert = PETSC_FALSE;
-  const PetscInt b = std::min(options_of(eps)->block_size, eps->n);
+  const PetscInt b = block_size(eps);
   PetscFunctionBegin;
   PetscCall(check_problem(eps));
   PetscCall(PetscObjectTypeCompare((PetscObject)eps->st, STSINVERT, &sinvert));
@@ -153,9 +167,11 @@ void store_vectors(EPS eps, const linear::BlockIteration& iteration,
                    const linear::BlockOperator& op)
 {
   if (eps->nconv == 0) return;
-  const petsc::Matrix X = eps->purify && inverts(eps)
-                              ? iteration.purified_vectors(0, eps->nconv, op)
-                              : iteration.ritz_vectors(eps->nconv);
+  // SLEPc asks for it with a B alone, whose null space is to be left; of a standard problem it
+  // makes the residual of A x = lambda x as small as that of the inverse.
+  const bool purifies = inverts(eps) && (eps->purify || !eps->isgeneralized);
+  const petsc::Matrix X =
+      purifies ? iteration.purified_vectors(0, eps->nconv, op) : iteration.ritz_vectors(eps->nconv);
   drop_false_pairs(eps, X);
   petsc::check(BVResize(eps->V, std::max<PetscInt>(eps->nconv, 1), PETSC_FALSE));
   for (PetscInt i = 0; i < eps->nconv; ++i) {
@@ -172,7 +188,7 @@ PetscErrorCode solve(EPS eps)
 {
   PetscFunctionBegin;
   PetscCall(guarded((PetscObject)eps, __func__, [eps] {
-    const PetscInt b = std::min(options_of(eps)->block_size, eps->n);
+    const PetscInt b = block_size(eps);
     const petsc::Matrix B = inner_product_matrix(eps);
     linear::BlockIteration iteration(B, b, eps->ncv + b);
     const linear::BlockOperator op = operator_of(eps);
@@ -195,8 +211,10 @@ PetscErrorCode set_from_options(EPS eps, petsc::OptionItems PetscOptionsObject)
   PetscFunctionBegin;
   PetscOptionsHeadBegin(PetscOptionsObject, "EPS blocklanczos options");
   PetscCall(PetscOptionsRangeInt("-eps_blocklanczos_blocksize",
-                                 "Vectors solved at a time; 8 to 16 are fastest", nullptr,
-                                 options.block_size, &options.block_size, nullptr, 1, 1024));
+                                 "Vectors solved at a time; 8 to 16 are fastest; 0: 8, or what ncv "
+                                 "has room for",
+                                 nullptr, options.block_size, &options.block_size, nullptr, 0,
+                                 1024));
   PetscCall(PetscOptionsReal("-eps_blocklanczos_restart",
                              "Share of the Ritz vectors beyond nev that a restart keeps", nullptr,
                              options.keep, &options.keep, nullptr));
@@ -213,8 +231,7 @@ PetscErrorCode view(EPS eps, PetscViewer viewer)
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)viewer, PETSCVIEWERASCII, &ascii));
   if (!ascii) PetscFunctionReturn(0);
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  block size %" PetscInt_FMT "\n",
-                                   options_of(eps)->block_size));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  block size %" PetscInt_FMT "\n", block_size(eps)));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  a restart keeps %g of the surplus Ritz vectors\n",
                                    (double)options_of(eps)->keep));
   PetscFunctionReturn(0);
@@ -238,7 +255,7 @@ PetscErrorCode create(EPS eps)
   Options* options = nullptr;
   PetscFunctionBegin;
   PetscCall(PetscNew(&options));
-  *options = {.block_size = 8, .keep = 0.5};
+  *options = {.block_size = 0, .keep = 0.5};
   eps->data = options;
   eps->categ = EPS_CATEGORY_KRYLOV;
   eps->useds = PETSC_FALSE;

@@ -59,8 +59,12 @@ void check_factor(EPS eps)
 petsc::Matrix inner_product_matrix(EPS eps)
 {
   petsc::Matrix B;
-  petsc::check(STGetBilinearForm(eps->st, B.put()));
-  if (B) return as_aij(std::move(B));
+  Mat of_basis = nullptr;
+  petsc::check(BVGetMatrix(eps->V, &of_basis, nullptr));
+  if (of_basis) {
+    petsc::check(PetscObjectReference((PetscObject)of_basis));
+    return as_aij(petsc::Matrix(of_basis));
+  }
   PetscInt first = 0, last = 0;
   petsc::check(MatCreateAIJ(PetscObjectComm((PetscObject)eps), eps->nloc, eps->nloc, eps->n, eps->n,
                             1, nullptr, 0, nullptr, B.put()));
@@ -78,9 +82,25 @@ bool inverts(EPS eps)
   return sinvert == PETSC_TRUE;
 }
 
+namespace {
+
+/// Whether the basis has the inner product of the transformation, not one that was set by
+/// BVSetMatrix after EPSSetUp.
+bool has_own_inner_product(EPS eps)
+{
+  petsc::Matrix of_problem;
+  Mat of_basis = nullptr;
+  petsc::check(STGetBilinearForm(eps->st, of_problem.put()));
+  petsc::check(BVGetMatrix(eps->V, &of_basis, nullptr));
+  return of_basis == static_cast<Mat>(of_problem);
+}
+
+}  // namespace
+
 linear::BlockOperator operator_of(EPS eps)
 {
-  if (!inverts(eps)) return [eps](Mat Q, Mat, Mat Y) { apply_by_columns(eps->st, Q, Y); };
+  if (!inverts(eps) || !has_own_inner_product(eps))
+    return [eps](Mat Q, Mat, Mat Y) { apply_by_columns(eps->st, Q, Y); };
   check_factor(eps);
   return [eps](Mat, Mat BQ, Mat Y) { petsc::check(STMatMatSolve(eps->st, BQ, Y)); };
 }

@@ -19,11 +19,8 @@ class Pencil {
     petsc::check(EPSGetOperators(eps, &A_, &B_));
     for (petsc::Vector* v : {&a_, &b_, &w_, &r_, &Bx_})
       petsc::check(MatCreateVecs(A_, v->put(), nullptr));
-    petsc::check(MatGetDiagonal(A_, a_));
-    petsc::check(VecAbs(a_));
-    petsc::check(VecSet(b_, 1.0));
-    if (B_) petsc::check(MatGetDiagonal(B_, b_));
-    petsc::check(VecAbs(b_));
+    take_diagonal(A_, a_);
+    take_diagonal(B_, b_);
   }
 
   struct Lengths {
@@ -54,6 +51,16 @@ class Pencil {
   }
 
  private:
+  /// The absolute diagonal; 1 where A is the identity or a shell matrix that does not give it.
+  static void take_diagonal(Mat A, Vec d)
+  {
+    PetscBool is_given = PETSC_FALSE;
+    petsc::check(VecSet(d, 1.0));
+    if (A) petsc::check(MatHasOperation(A, MATOP_GET_DIAGONAL, &is_given));
+    if (is_given) petsc::check(MatGetDiagonal(A, d));
+    petsc::check(VecAbs(d));
+  }
+
   double scaled_length(Vec v)
   {
     PetscReal length = 0.0;

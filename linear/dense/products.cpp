@@ -1,5 +1,7 @@
 #include "linear/dense/products.hpp"
 
+#if !EIGEN_VERSION_AT_LEAST(3, 4, 90)
+
 namespace chladni::linear {
 namespace {
 
@@ -282,3 +284,5 @@ void multiply(const StridedMatrix<const std::complex<double>>& A,
 }
 
 }  // namespace chladni::linear
+
+#endif

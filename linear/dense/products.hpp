@@ -9,7 +9,8 @@
 // (chladni_compile) and writes `C.noalias() += A.transpose() * B` as ever; programs
 // without it get the same products from Eigen.
 // docs/explanation/decisions/0011-products-are-compiled-once.md has what was measured. Products of
-// small fixed sizes stay expressions.
+// small fixed sizes stay expressions, and so do all products of an Eigen after 3.4, whose kernels
+// may have other names.
 
 namespace chladni::linear {
 
@@ -96,6 +97,8 @@ struct CompiledProduct {
 
 }  // namespace chladni::linear
 
+#if !EIGEN_VERSION_AT_LEAST(3, 4, 90)
+
 namespace Eigen::internal {
 
 template <typename Left, typename Right>
@@ -111,3 +114,5 @@ struct generic_product_impl<Left, Right, DenseShape, DenseShape, GemvProduct>
 };
 
 }  // namespace Eigen::internal
+
+#endif

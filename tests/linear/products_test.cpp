@@ -14,8 +14,10 @@ using Dense = Eigen::Matrix<Entry, Dynamic, Dynamic>;
 template <typename Entry>
 using InRows = Eigen::Matrix<Entry, Dynamic, Dynamic, Eigen::RowMajor>;
 
+#if !EIGEN_VERSION_AT_LEAST(3, 4, 90)
 static_assert(std::is_base_of_v<CompiledProduct<MatrixXd, MatrixXd>,
                                 Eigen::internal::generic_product_impl<MatrixXd, MatrixXd>>);
+#endif
 
 /// A B by the definition.
 template <typename Left, typename Right>

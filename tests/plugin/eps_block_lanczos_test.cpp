@@ -204,6 +204,107 @@ TEST(EpsBlockLanczos, KeepsWithinTheSmallestBasis)
   petsc::check(PetscOptionsClearValue(nullptr, "-small_eps_blocklanczos_restart"));
 }
 
+petsc::Matrix laplacian(PetscInt n)
+{
+  return matrix(n, 3, [n](PetscInt i) {
+    Row row{{i, 2.0}};
+    if (i > 0) row.emplace_back(i - 1, -1.0);
+    if (i < n - 1) row.emplace_back(i + 1, -1.0);
+    return row;
+  });
+}
+
+std::vector<double> laplacian_spectrum(PetscInt n)
+{
+  std::vector<double> lambda;
+  for (PetscInt k = 1; k <= n; ++k)
+    lambda.push_back(4.0 * std::pow(std::sin(0.5 * k * std::numbers::pi / (n + 1)), 2));
+  return lambda;
+}
+
+/// Of a grid of 72 x 72, the four largest: with blocks of 8, a basis of 20 restarted for ever.
+TEST(EpsBlockLanczos, DoesNotStarveInASubspaceForOneVectorAtATime)
+{
+  constexpr PetscInt side = 72;
+  const petsc::Matrix A = matrix(side * side, 5, [](PetscInt i) {
+    Row row{{i, 4.0}};
+    if (i % side > 0) row.emplace_back(i - 1, -1.0);
+    if (i % side < side - 1) row.emplace_back(i + 1, -1.0);
+    if (i >= side) row.emplace_back(i - side, -1.0);
+    if (i < side * (side - 1)) row.emplace_back(i + side, -1.0);
+    return row;
+  });
+  std::vector<double> exact;
+  for (const double x : laplacian_spectrum(side))
+    for (const double y : laplacian_spectrum(side)) exact.push_back(x + y);
+  std::ranges::sort(exact, std::greater<>());
+  const petsc::EigenSolver eps = solver(A, nullptr, {.nev = 4, .inverts = false, .ncv = 20});
+  expect_first(eps, exact);
+}
+
+TEST(EpsBlockLanczos, HasErrorsBelowItsToleranceWhenItInverts)
+{
+  const petsc::Matrix A = laplacian(1000);
+  for (const double tolerance : {1e-6, 1e-8}) {
+    const petsc::EigenSolver eps = solver(A, nullptr, {.nev = 6});
+    petsc::check(EPSSetTolerances(eps, tolerance, petsc::automatic));
+    expect_first(eps, laplacian_spectrum(1000));
+    for (PetscInt i = 0; i < 6; ++i) {
+      PetscReal error = 1.0;
+      petsc::check(EPSComputeError(eps, i, EPS_ERROR_RELATIVE, &error));
+      EXPECT_LT(error, tolerance) << i;
+    }
+  }
+}
+
+/// A matrix that can do nothing but multiply.
+TEST(EpsBlockLanczos, TakesAShellMatrixThatOnlyMultiplies)
+{
+  petsc::Matrix A = laplacian(150), shell;
+  PetscInt n_local = 0;
+  petsc::check(MatGetLocalSize(A, &n_local, nullptr));
+  petsc::check(MatCreateShell(PETSC_COMM_WORLD, n_local, n_local, 150, 150, static_cast<Mat>(A),
+                              shell.put()));
+  const auto multiply = [](Mat S, Vec x, Vec y) -> PetscErrorCode {
+    void* inside = nullptr;
+    if (const PetscErrorCode code = MatShellGetContext(S, static_cast<void*>(&inside))) return code;
+    return MatMult(static_cast<Mat>(inside), x, y);
+  };
+  petsc::check(MatShellSetOperation(
+      shell, MATOP_MULT,
+      reinterpret_cast<void (*)()>(static_cast<PetscErrorCode (*)(Mat, Vec, Vec)>(multiply))));
+  std::vector<double> exact = laplacian_spectrum(150);
+  std::ranges::reverse(exact);
+  expect_first(solver(shell, nullptr, {.nev = 5, .inverts = false}), exact);
+}
+
+/// B^-1 A is symmetric in the inner product of B, which the user gives to the basis.
+TEST(EpsBlockLanczos, ObeysAnInnerProductThatIsSetAfterItsSetUp)
+{
+  constexpr PetscInt n = 200;
+  const auto mass = [](PetscInt i) { return 1.0 + 0.5 * std::sin(double(i)); };
+  const petsc::Matrix A = laplacian(n), B = diagonal(n, mass);
+  const petsc::Matrix S = matrix(n, 3, [&](PetscInt i) {
+    Row row{{i, 2.0 / mass(i)}};
+    if (i > 0) row.emplace_back(i - 1, -1.0 / mass(i));
+    if (i < n - 1) row.emplace_back(i + 1, -1.0 / mass(i));
+    return row;
+  });
+  const petsc::EigenSolver pencil = solver(A, B, {.nev = 5, .inverts = false});
+  petsc::check(EPSSolve(pencil));
+  std::vector<double> exact = converged(pencil);
+  const petsc::EigenSolver eps = solver(S, nullptr, {.nev = 5, .inverts = false});
+  petsc::check(EPSSetUp(eps));
+  BV V = nullptr;
+  petsc::check(EPSGetBV(eps, &V));
+  petsc::check(BVSetMatrix(V, B, PETSC_FALSE));
+  exact.resize(std::max<std::size_t>(exact.size(), 40), 0.0);
+  petsc::check(EPSSolve(eps));
+  const std::vector<double> found = converged(eps);
+  ASSERT_GE(std::ssize(found), 5);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(found[i], exact[i], 1e-9) << i;
+}
+
 TEST(EpsBlockLanczos, TakesBOfOtherTypes)
 {
   constexpr PetscInt n = 120;
