@@ -56,6 +56,7 @@ template <typename Left, typename Right>
 struct CompiledProduct {
   using Entry = typename Left::Scalar;
 
+  // NOLINTBEGIN(readability-identifier-naming): the names by which Eigen calls them
   template <typename Target>
   static void evalTo(Target& C, const Left& A, const Right& B)
   {
@@ -76,6 +77,7 @@ struct CompiledProduct {
   {
     run(C, A, B, factor, Into::added_to);
   }
+  // NOLINTEND(readability-identifier-naming)
 
  private:
   // What stands in memory, without its factor, transposed or conjugated; a copy of anything else.
