@@ -11,6 +11,8 @@ PetscErrorCode set_up_sort(EPS eps)
   PetscFunctionBegin;
   eps->sc->map = nullptr;
   eps->sc->mapobj = nullptr;
+  if (eps->which == EPS_WHICH_USER)
+    PetscFunctionReturn(0);  // EPSSetEigenvalueComparison has set it
   eps->sc->comparisonctx = nullptr;
   switch (eps->which) {
     case EPS_LARGEST_MAGNITUDE:

@@ -106,7 +106,7 @@ def answers_of_the_solver_type(plugin):
     for options, words in (
         ("-eps_interval 0,1 -st_type sinvert", "use -eps_type krylovschur"),
         ("-st_type cayley -eps_target 0.1", "-st_type sinvert"),
-        ("-eps_nev 20 -eps_ncv 24", "-eps_ncv 24 is too small: give at least nev + 2 blocks = 36"),
+        ("-eps_nev 20 -eps_ncv 24 -eps_blocklanczos_blocksize 8", "-eps_ncv 24 is too small: give at least nev + 2 blocks = 36"),
         ("-eps_blocklanczos_restart 2", "give 0 to 0.9"),
     ):
         for ranks in (1, 2):
