@@ -121,7 +121,7 @@ mbs_export::ReducedSystem described_whole(const scene::Scene& scene, const Secto
     rings.push_back(add_whole_ring(whole, model, r));
     add_ring_masters(whole, model, r);
   }
-  const MatrixXd F = shapes_of(whole, model, rings, n_axis);
+  const Eigen::MatrixXd F = shapes_of(whole, model, rings, n_axis);
   whole.ring_motion = {.shapes = F, .displacements = F};  // of the masters alone
   return whole;
 }
