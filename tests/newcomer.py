@@ -15,16 +15,17 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "tests/tools"))
-from compile_times import table  # noqa: E402
+from compile_times import processor_seconds, table  # noqa: E402
 SHOWN = 14  # last lines of each output
 OF_DEV = re.compile(r"OMPI_|OPENBLAS_|OMP_|CCACHE_|PYTHONDONTWRITEBYTECODE")
 
 
 def shell(command, folder, environment):
-    start = time.monotonic()
+    """(exit code, what it prints, seconds on the clock, seconds of processors)"""
+    start, used = time.monotonic(), processor_seconds()
     run = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, text=True,
                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)  # fmt: skip
-    return run.returncode, run.stdout, time.monotonic() - start
+    return run.returncode, run.stdout, time.monotonic() - start, processor_seconds() - used
 
 
 def commands():
@@ -59,8 +60,7 @@ def main(output):
         kept = {key: value for key, value in os.environ.items() if not OF_DEV.match(key)}
         environment = {**kept, "CCACHE_DISABLE": "1"}
         first = f"git clone --quiet {ROOT} chladni"
-        code, printed, seconds = shell(first, name, environment)
-        total = seconds
+        code, printed, total, _ = shell(first, name, environment)
         clone = Path(name) / "chladni"
         for command in commands():
             if command.startswith("export "):
@@ -68,13 +68,13 @@ def main(output):
                 report += [f"    $ {command}", ""]
                 continue
             elsewhere = {"DESTDIR": f"{name}/installed"} if command.startswith("cmake --install") else {}
-            code, printed, seconds = shell(command, clone, {**environment, **elsewhere})
+            code, printed, seconds, used = shell(command, clone, {**environment, **elsewhere})
             total += seconds
             lines = [line.rstrip().replace(name, "") for line in printed.strip().splitlines()][-SHOWN:]
-            report += [f"## `{command}`", "", f"{seconds:.0f} s, exit code {code}", "", "```text", *lines, "```", ""]
+            report += [f"## `{command}`", "", f"{seconds:.0f} s, of processors {used:.0f} s, exit code {code}", "", "```text", *lines, "```", ""]
             print(f"{seconds:8.1f} s  {code}  {command}", flush=True)
             if command.startswith("./dev demo"):
-                report += ["Of this, compiling:", "", *table(clone / "build/release"), ""]
+                report += ["Of this, compiling, by the clock of each step:", "", *table(clone / "build/release"), ""]
             if code:
                 break
     outcome = f"The last command failed with exit code {code}." if code else (

@@ -19,7 +19,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "tests/tools"))
-from compile_times import table  # noqa: E402
+from compile_times import processor_seconds, table  # noqa: E402
 MIRROR = "http://deb.debian.org/debian"
 MOUNTED = ("proc", "sys", "dev")
 PACKAGES = ("g++", "cmake", "libpetsc-real-dev", "libslepc-real-dev", "libmumps-dev", "libgmsh-dev", "libhdf5-dev",
@@ -80,27 +80,29 @@ def commit_of(clone):
 
 
 def inside(folder, command):
-    """(exit code, what it prints, seconds) of a shell command in the clone."""
-    start = time.monotonic()
+    """(exit code, what it prints, seconds on the clock, seconds of processors) of a shell command in the clone."""
+    start, used = time.monotonic(), processor_seconds()
     environment = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "LC_ALL": "C.UTF-8", "CCACHE_DISABLE": "1"}
     run = subprocess.run(["chroot", str(folder), "sh", "-c", f"cd /root/chladni && {command}"], env=environment, text=True,
                          errors="replace", stdout=subprocess.PIPE, stderr=subprocess.STDOUT)  # fmt: skip
-    return run.returncode, run.stdout, time.monotonic() - start
+    return run.returncode, run.stdout, time.monotonic() - start, processor_seconds() - used
 
 
 def versions(folder):
-    _, printed, _ = inside(folder, f"dpkg-query -W -f '${{Package}} ${{Version}}\\n' {' '.join(PACKAGES)}")
+    _, printed, _, _ = inside(folder, f"dpkg-query -W -f '${{Package}} ${{Version}}\\n' {' '.join(PACKAGES)}")
     return dict(line.split(" ", 1) for line in printed.splitlines() if line.count(" ") == 1)
 
 
-def outcome(command, code, printed, seconds, where=""):
+def outcome(command, code, printed, times, where=""):
     """Lines of the page, `where` behind the command."""
     tests = re.findall(r"(\d+)% tests passed, (\d+) tests failed out of (\d+)", printed)
     warnings = len(re.findall(r": warning: ", printed))
     packages = re.search(r"^== build: .*\[(\d+) s\]", printed, re.M)
+    seconds, used = times
     minutes = f"{seconds / 60:.1f} minutes"
     if packages:
         minutes = f"{(seconds - int(packages[1])) / 60:.1f} minutes after the packages"
+    minutes += f", {used / 60:.1f} minutes of processors"
     facts = [minutes, f"exit code {code}"]
     facts.append(f"{warnings} warnings")
     facts += [f"{failed} of {total} tests failed" for _, failed, total in tests]
@@ -135,9 +137,9 @@ def installed_packages(suite, made_in):
                         f"chladni run {EXAMPLE} --output out && squeal run {EXAMPLE} --output out"]  # fmt: skip
             lines = []
             for command in commands:
-                code, printed, seconds = inside(folder, command)
+                code, printed, seconds, used = inside(folder, command)
                 print(f"{seconds:8.0f} s  {code}  {command}", flush=True)
-                lines += outcome(command, code, printed, seconds, ", in a bare system without compiler")
+                lines += outcome(command, code, printed, (seconds, used), ", in a bare system without compiler")
                 if code:
                     break
         return code, lines
@@ -151,10 +153,10 @@ def section(suite, folder, page, commands):
         if command not in commands:
             lines += earlier(page, suite, command)
             continue
-        code, printed, seconds = inside(folder, command)
+        code, printed, seconds, used = inside(folder, command)
         (folder / "root" / (command.split()[-1] + ".log")).write_text(printed)
         print(f"{seconds:8.0f} s  {code}  {command}", flush=True)
-        lines += outcome(command, code, printed, seconds, f", commit {commit}, {time.strftime('%Y-%m-%d')}")
+        lines += outcome(command, code, printed, (seconds, used), f", commit {commit}, {time.strftime('%Y-%m-%d')}")
         if not code and command == "./dev package":
             code, tried = installed_packages(suite, folder)
             lines += tried
@@ -162,11 +164,11 @@ def section(suite, folder, page, commands):
             break
     compiled = table(folder / "root/chladni/build/release")
     if compiled:
-        lines += ["What was compiled for the last of them and those before:", "", *compiled, ""]
+        lines += ["What was compiled for the last of them and those before, by the clock of each step:", "", *compiled, ""]
     debian = (folder / "etc/debian_version").read_text().strip()
-    table = ["| package | version |", "| --- | --- |", *(f"| {name} | {version} |" for name, version in versions(folder).items())]
+    found = ["| package | version |", "| --- | --- |", *(f"| {name} | {version} |" for name, version in versions(folder).items())]
     return code, [f"## {suite}", "",
-                  f"Debian {debian}, {os.cpu_count()} cores.", "", *table, "",
+                  f"Debian {debian}, {os.cpu_count()} cores.", "", *found, "",
                   *lines]  # fmt: skip
 
 

@@ -9,9 +9,16 @@ nothing else. Each output counts with its last run.
 import collections
 import pathlib
 import re
+import resource
 import sys
 
 TARGET = re.compile(r"CMakeFiles/(?:chladni_)?(\w+)\.dir/")
+
+
+def processor_seconds():
+    """User's and system's, of all commands that this process has waited for."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def by_library(log):
