@@ -4,17 +4,51 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "mesh/vectors.hpp"
 
 namespace chladni::mesh {
 
-/// Derivatives of the shape functions of an element at its own nodes.
-struct NodeDerivatives {
+/// Derivatives of the shape functions of an element at some points.
+struct ShapeDerivatives {
   int n_nodes;
-  std::vector<double> first, second;  ///< [n_nodes x n_nodes], d N_j / d xi or eta at node i
+  std::vector<double> first, second;  ///< [n_points x n_nodes], d N_j / d xi or eta at point i
+
+  int n_points() const { return static_cast<int>(first.size()) / n_nodes; }
 };
 
 /// The derivatives of the complete Lagrange basis on the equidistant lattice of a triangle or
-/// quadrilateral. Parent coordinates are in [0, 1].
-NodeDerivatives node_derivatives(Shape shape, int order);
+/// quadrilateral at its own nodes. Parent coordinates are in [0, 1].
+ShapeDerivatives node_derivatives(Shape shape, int order);
+
+/// The same at the points of the full integration of the element.
+ShapeDerivatives gauss_derivatives(Shape shape, int order);
+
+/// The tangents (a_1, a_2) of an element at one of the points.
+std::array<Vector, 2> tangents(const Mesh& mesh, std::span<const int> nodes,
+                               const ShapeDerivatives& derivatives, int point);
+
+/// An edge of a surface element at one of its nodes.
+struct EdgeAtNode {
+  int next, other;  ///< neighbours along the edge, the lower first; at its end -1 for the other
+  Vector along, inward;  ///< unit vectors: towards `next`, and square to that into the element
+};
+
+/// A surface element at one of its nodes.
+struct FaceAtNode {
+  Vector normal;                  ///< of length 1
+  double angle;                   ///< rad, between its edges; pi at a node inside an edge
+  std::vector<EdgeAtNode> edges;  ///< two at a corner, one inside an edge
+};
+
+/// An element at one of its nodes.
+/// @param place        of the node in the lattice of the element
+/// @param derivatives  `node_derivatives` of the block
+FaceAtNode face_at_node(const Mesh& mesh, const ElementBlock& block, int element, int place,
+                        const ShapeDerivatives& derivatives);
+
+/// The angle between an element and the continuation of its neighbour over their edge, rad: 0 where
+/// the surface goes on, pi where one lies on the other.
+/// @param a, b  `EdgeAtNode::inward` of both
+double fold_angle(const Vector& a, const Vector& b);
 
 }  // namespace chladni::mesh

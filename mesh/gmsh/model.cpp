@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <unordered_map>
 
 #include "common/error.hpp"
 #include "mesh/complete_elements.hpp"
+#include "mesh/quality.hpp"
 #include "mesh/split_quadrilaterals.hpp"
 
 namespace chladni::mesh {
@@ -262,6 +264,66 @@ Mesh current_model(const std::vector<std::string>& line_groups)
   return mesh;
 }
 
+/// Options of Gmsh with their values.
+using Way = std::vector<std::pair<const char*, double>>;
+
+/// What to try, one after the other, when elements lie on one another or are folded: other random
+/// shifts of the points, other algorithms, triangles joined otherwise.
+const std::vector<Way> other_ways{
+    {{"Mesh.RandomSeed", 2.0}},
+    {{"Mesh.RandomSeed", 3.0}},
+    {{"Mesh.Algorithm", 5.0}},
+    {{"Mesh.Algorithm", 5.0}, {"Mesh.RandomSeed", 2.0}},
+    {{"Mesh.Algorithm", 1.0}},
+    {{"Mesh.RecombinationAlgorithm", 0.0}},
+    {{"Mesh.Algorithm", 5.0}, {"Mesh.RecombinationAlgorithm", 0.0}},
+};
+
+/// Meshes the open model in two dimensions.
+Mesh generated_elements(int order, const std::vector<std::string>& line_groups)
+{
+  gmsh::model::mesh::generate(2);
+  if (order > 1) gmsh::model::mesh::setOrder(order);
+  return split_flat_corners(current_model(line_groups));
+}
+
+/// The mesh by another way, with a note; absent if its elements are no better.
+std::optional<Mesh> mended(const Way& way, int order, const std::vector<std::string>& line_groups)
+{
+  std::string words;
+  for (const auto& [option, value] : way) {
+    gmsh::option::setNumber(option, value);
+    words += fmt::format("{}{} = {}", words.empty() ? "" : ", ", option, value);
+  }
+  try {
+    gmsh::model::mesh::clear();
+    Mesh mesh = generated_elements(order, line_groups);
+    if (!complaint_about(mesh).empty()) return std::nullopt;
+    mesh.notes.push_back(fmt::format(
+        "Gmsh's first elements lay on one another or were folded; with {} they do not", words));
+    return mesh;
+  } catch (const std::exception&) {  // this way leads to no mesh
+    return std::nullopt;
+  } catch (const std::string&) {
+    return std::nullopt;
+  }
+}
+
+/// Meshes the open model, anew if the elements cannot be used. If no way helps, these are returned.
+Mesh best_elements(int order, const std::vector<std::string>& line_groups)
+{
+  Mesh first = generated_elements(order, line_groups);
+  if (complaint_about(first).empty()) return first;
+  std::map<std::string, double> before;
+  for (const Way& way : other_ways)
+    for (const auto& [option, value] : way) gmsh::option::getNumber(option, before[option]);
+  for (const Way& way : other_ways) {
+    for (const auto& [option, value] : before) gmsh::option::setNumber(option, value);
+    if (std::optional<Mesh> mesh = mended(way, order, line_groups)) return *std::move(mesh);
+  }
+  return first;
+}
+
 }  // namespace
 
 Mesh mesh_with_gmsh(const std::function<void()>& build, int order,
@@ -271,11 +333,8 @@ Mesh mesh_with_gmsh(const std::function<void()>& build, int order,
   try {
     set_meshing_options();
     build();
-    if (order > 0 && n_elements(2) == 0) {
-      gmsh::model::mesh::generate(2);
-      if (order > 1) gmsh::model::mesh::setOrder(order);
-    }
-    Mesh mesh = split_flat_corners(current_model(line_groups));
+    Mesh mesh = order > 0 && n_elements(2) == 0 ? best_elements(order, line_groups)
+                                                : split_flat_corners(current_model(line_groups));
     mesh.made_by = path_of_gmsh();
     return mesh;
   } catch (const Error&) {

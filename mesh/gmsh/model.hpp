@@ -9,8 +9,9 @@
 namespace chladni::mesh {
 
 /// Calls `build` in a Gmsh session with quadrilateral recombination, meshes the model in two
-/// dimensions if it has no elements yet, and returns the mesh. What Gmsh prints is not for the
-/// user.
+/// dimensions if it has no elements yet, and returns the mesh. Where elements of such a mesh lie on
+/// one another or are folded, other options of Gmsh are tried, and a note says which helped. What
+/// Gmsh prints is not for the user.
 /// @param order        of the elements; 0 keeps that of the model
 /// @param line_groups  groups of curves whose elements are kept; other curves give groups of nodes
 ///                     only

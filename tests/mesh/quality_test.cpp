@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -147,6 +148,125 @@ TEST(CheckUsable, NamesTheFirstElementsAndTheirNumber)
     EXPECT_NE(text.find("110, ...;"), std::string::npos) << text;
   }
 }
+
+/// Elements of order 1 with these corners, all in one group.
+Mesh of_corners(const std::vector<Vector>& nodes, const std::vector<std::vector<int>>& elements)
+{
+  Mesh mesh;
+  mesh.positions = nodes;
+  for (int i = 0; i < mesh.n_nodes(); ++i) mesh.node_numbers.push_back(i + 1);
+  mesh.groups.push_back({.name = "plate", .dimension = 2, .nodes = {}});
+  for (const std::size_t n : {3U, 4U}) {
+    ElementBlock block{.shape = n == 3 ? Shape::triangle : Shape::quadrilateral,
+                       .order = 1,
+                       .nodes_per_element = int(n),
+                       .numbers = {},
+                       .nodes = {},
+                       .group = {}};
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+      if (elements[e].size() != n) continue;
+      std::vector<int> lattice = elements[e];
+      if (n == 4) std::swap(lattice[2], lattice[3]);
+      block.nodes.insert(block.nodes.end(), lattice.begin(), lattice.end());
+      block.numbers.push_back(std::int64_t(e) + 1);
+      block.group.push_back(0);
+    }
+    if (!block.numbers.empty()) mesh.blocks.push_back(block);
+  }
+  return mesh;
+}
+
+std::vector<std::array<std::int64_t, 2>> pairs_of(const Mesh& mesh)
+{
+  std::vector<std::array<std::int64_t, 2>> pairs;
+  for (const auto& [first, second] : overlaps(mesh)) pairs.push_back({first, second});
+  return pairs;
+}
+
+/// Triangles around a node in a square of side 2, with `up` of all nodes as a function of x.
+Mesh fan(
+    const Vector& middle, double (*up)(double) = [](double) { return 0.0; })
+{
+  std::vector<Vector> nodes{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 2, 0},
+                            {1, 2, 0}, {0, 2, 0}, {0, 1, 0}, middle};
+  for (Vector& x : nodes) x[2] = up(x[0]);
+  std::vector<std::vector<int>> elements;
+  for (int i = 0; i < 8; ++i) elements.push_back({i, (i + 1) % 8, 8});
+  return of_corners(nodes, elements);
+}
+
+using Pairs = std::vector<std::array<std::int64_t, 2>>;
+
+TEST(Overlaps, AreNoneInASoundFan)
+{
+  EXPECT_EQ(pairs_of(fan({0.7, 1.2, 0})), Pairs());
+  EXPECT_EQ(complaint_about(fan({0.7, 1.2, 0})), "");
+}
+
+TEST(Overlaps, AreFoundWhereANodeHasLeftItsFan)
+{
+  // Beyond the corner (2, 2) the triangles at it, 4 and 5, are turned over; each is a good one.
+  const Mesh mesh = fan({2.3, 2.1, 0});
+  EXPECT_TRUE(unusable(quality(mesh)).empty());
+  const Pairs pairs = pairs_of(mesh);
+  EXPECT_TRUE(std::ranges::count(pairs, std::array<std::int64_t, 2>{3, 4}) == 1);
+  EXPECT_NE(complaint_about(mesh).find("3 and 4"), std::string::npos) << complaint_about(mesh);
+}
+
+TEST(Overlaps, AreFoundOnACurvedSurface)
+{
+  const auto arch = [](double x) { return 0.1 * x * (2.0 - x); };
+  EXPECT_EQ(pairs_of(fan({1.1, 0.9, 0}, arch)), Pairs());
+  EXPECT_FALSE(pairs_of(fan({2.3, 2.1, 0}, arch)).empty());
+}
+
+TEST(Overlaps, AreFoundBetweenUnconnectedPartsOfAFlatGroup)
+{
+  const std::vector<Vector> nodes{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0},
+                                  {1, 1, 0}, {3, 1, 0}, {3, 3, 0}, {1, 3, 0}};
+  Mesh mesh = of_corners(nodes, {{0, 1, 2, 3}, {4, 5, 6, 7}});
+  EXPECT_EQ(pairs_of(mesh), (Pairs{{1, 2}}));
+  mesh.groups.push_back({.name = "doubler", .dimension = 2, .nodes = {}});
+  mesh.blocks[0].group[1] = 1;  // two plates that somebody means
+  EXPECT_EQ(pairs_of(mesh), Pairs());
+}
+
+TEST(Overlaps, AreNoneAtJointsFoldsAndSharpEdges)
+{
+  for (const double angle : {90.0, 45.0, 15.0}) {  // of a third plate on two
+    const double c = std::cos(angle * std::numbers::pi / 180.0), s = std::sqrt(1.0 - c * c);
+    const std::vector<Vector> nodes{{0, 0, 0},  {0, 1, 0},  {1, 0, 0}, {1, 1, 0},
+                                    {-1, 0, 0}, {-1, 1, 0}, {c, 0, s}, {c, 1, s}};
+    EXPECT_EQ(pairs_of(of_corners(nodes, {{0, 2, 3, 1}, {0, 1, 5, 4}, {0, 6, 7, 1}})), Pairs());
+    EXPECT_EQ(pairs_of(of_corners(nodes, {{0, 2, 3, 1}, {0, 6, 7, 1}})), Pairs());
+  }
+}
+
+TEST(Overlaps, OfElementsWithTheSameNodesDoNotCount)
+{
+  const std::vector<Vector> nodes{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  EXPECT_EQ(pairs_of(of_corners(nodes, {{0, 1, 2, 3}, {1, 2, 3, 0}})), Pairs());
+  EXPECT_EQ(pairs_of(of_corners(nodes, {{0, 1, 2, 3}, {0, 1, 2}})), (Pairs{{1, 2}}));
+}
+
+class MendedAnnulus : public ::testing::TestWithParam<std::tuple<double, int, int>> {};
+
+TEST_P(MendedAnnulus, HasElementsSideBySide)
+{
+  const auto& [size, nodes, order] = GetParam();
+  const Mesh mesh = annulus({.inner_radius = 0.047,
+                             .outer_radius = 0.143,
+                             .element_size = size,
+                             .element_order = order,
+                             .rings = {{.name = "track", .radius = 0.1175, .nodes = nodes}}});
+  EXPECT_EQ(complaint_about(mesh), "");
+}
+
+// With 11 mm and 44 nodes Gmsh 4.8.4 turns a triangle over.
+INSTANTIATE_TEST_SUITE_P(All, MendedAnnulus,
+                         ::testing::Combine(::testing::Values(0.009, 0.011, 0.013),
+                                            ::testing::Values(30, 44, 45),
+                                            ::testing::Values(2, 3)));
 
 }  // namespace
 }  // namespace chladni::mesh
