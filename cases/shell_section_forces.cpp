@@ -91,7 +91,7 @@ Index points_of_shell(const mesh::ElementBlock& block)
 ResultantModes shell_section_forces(const Chosen& chosen, const plate::ShellSection& section,
                                     const MeshedDofs& fe, const RowsOf& rows_of)
 {
-  const plate::NodeVectors normals = plate::mean_normals(fe.mesh);
+  const plate::Directors directors = plate::shell_directors(fe.mesh);
   const MatrixXd rows = node_rows(chosen.nodes, fe.dofs, rows_of);
   ResultantModes forces{.name = chosen.group,
                         .kinds = {"N_x", "N_y", "N_xy", "M_x", "M_y", "M_xy", "Q_x", "Q_y"},
@@ -102,7 +102,7 @@ ResultantModes shell_section_forces(const Chosen& chosen, const plate::ShellSect
                         .S = MatrixXd(n_kinds * chosen.n_points, rows.cols())};
   for (const ChosenElement& shell : chosen.elements) {
     const plate::ShellNodes nodes =
-        plate::shell_nodes(fe.mesh, shell.block, shell.element, normals, section);
+        plate::shell_nodes(fe.mesh, shell.block, shell.element, directors, section);
     const plate::NodeVectors arms =
         nodes.x - plate::element_positions(fe.mesh, shell.block, shell.element);
     const MatrixXd S_e = add_points(forces, shell, nodes, section.material);

@@ -88,12 +88,12 @@ void add_element(Triplets& entries, const plate::ElementMatrices& matrices,
 Triplets assemble(const mesh::Mesh& plate, Formulation formulation,
                   const plate::ShellSection& section, const Equations& equations)
 {
-  const plate::NodeVectors normals = plate::mean_normals(plate);
+  const plate::Directors directors = plate::shell_directors(plate);
   Triplets entries;
   for (const mesh::ElementBlock& block : plate.blocks) {
     const std::vector<int> places = lattice_places(block, formulation);
     for (int e = 0; e < block.n_elements(); ++e) {
-      const plate::ShellNodes nodes = plate::shell_nodes(plate, block, e, normals, section);
+      const plate::ShellNodes nodes = plate::shell_nodes(plate, block, e, directors, section);
       std::vector<int> first_equations;
       for (const int k : places)
         first_equations.push_back(equations.of_node[block.element_nodes(e)[k]]);

@@ -57,13 +57,13 @@ System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs,
   checked_count(std::int64_t{dofs.n_active()} * dofs.n_components(), "DOFs", "use a coarser mesh");
   const SectionMap sections = map_sections(mesh, structure);
   const std::vector<PointElement> points = point_elements(mesh, structure, dofs);
-  const NodeVectors normals =
-      on_all_ranks(comm, [&] { return mean_normals(mesh, own_nodes(mesh, dofs, comm)); });
+  const Directors directors =
+      on_all_ranks(comm, [&] { return shell_directors(mesh, own_nodes(mesh, dofs, comm)); });
   const BlockPattern pattern = element_pattern(mesh, points, dofs, rank);
   const bool is_lossy = has_loss_factors(structure);
   BlockRows K(pattern), M(pattern), H(pattern);
-  for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e, const auto&) {
-    const ElementContext context{sections, structure, normals};
+  const auto add_element = [&](const mesh::ElementBlock& block, int e, const auto&) {
+    const ElementContext context{sections, structure, directors};
     auto [matrices, arms] = element_matrices(mesh, block, e, context);
     const ElementMotion motion = element_motion(dofs, block.element_nodes(e), arms);
     const std::vector<std::ptrdiff_t> places = block_places(pattern, motion.numbers);
@@ -71,6 +71,10 @@ System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs,
     if (eta > 0.0) add_symmetric(H, eta * matrices.K, motion, dofs, places);
     add_symmetric(K, std::move(matrices.K), motion, dofs, places);
     add_symmetric(M, std::move(matrices.M), motion, dofs, places);
+  };
+  on_all_ranks(comm, [&] {
+    for_owned_elements(mesh, dofs, rank, add_element);
+    return true;
   });
   for (const PointElement& point : points) {
     const ElementMotion motion = element_motion(dofs, point.nodes, {});

@@ -34,8 +34,8 @@ MatrixXd element_energies(const mesh::Mesh& mesh, const Structure& structure,
                           const MatrixXd& motions, MPI_Comm comm)
 {
   const SectionMap sections = map_sections(mesh, structure);
-  const NodeVectors normals = mean_normals(mesh);
-  const ElementContext context{sections, structure, normals};
+  const Directors directors = shell_directors(mesh);
+  const ElementContext context{sections, structure, directors};
   Index n_elements = 0;
   for (const mesh::ElementBlock& block : mesh.blocks) n_elements += block.n_elements();
   MatrixXd energies = MatrixXd::Zero(n_elements, motions.cols());

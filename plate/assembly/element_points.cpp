@@ -17,7 +17,7 @@ PlacedPoints element_points(const MassModel& model, const mesh::ElementBlock& bl
         .arms = {}};
   }
   const ShellSection& section = model.structure.shells[model.sections.shell[group]];
-  const ShellNodes shell = shell_nodes(model.mesh, block, element, model.normals, section);
+  const ShellNodes shell = shell_nodes(model.mesh, block, element, model.directors, section);
   PlacedPoints placed{
       .points = shell_mass_points(block.shape, block.order, shell, section.material.density),
       .arms = {}};

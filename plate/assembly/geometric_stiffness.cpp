@@ -59,9 +59,9 @@ MatrixXd stress_stiffness(const LoadedElement& of, const VectorXd& u_e)
                                     line_fields(model.sections.on_surface, of.nodes()));
   }
   const ShellSection& section = model.structure.shells[model.sections.shell[group]];
-  return shell_geometric_stiffness(block.shape, block.order,
-                                   shell_nodes(model.mesh, block, element, model.normals, section),
-                                   section.material, u_e);
+  return shell_geometric_stiffness(
+      block.shape, block.order, shell_nodes(model.mesh, block, element, model.directors, section),
+      section.material, u_e);
 }
 
 /// Adds what the element pulls at the arms by which it follows: K_e u_e and the load that it passes
@@ -73,7 +73,7 @@ void add_arms(const LoadedElement& of, const NodeVectors& offsets, const VectorX
   const std::span<const int> nodes = of.nodes();
   const auto follows = [&](int node) { return model.dofs.is_dependent(node); };
   if (offsets.size() == 0 && std::ranges::none_of(nodes, follows)) return;
-  const ElementContext context{model.sections, model.structure, model.normals};
+  const ElementContext context{model.sections, model.structure, model.directors};
   const VectorXd forces =
       element_matrices(model.mesh, of.block, of.element, context).matrices.K * u_e -
       element_moments(element_points(model, of.block, of.element).points) * of.load;

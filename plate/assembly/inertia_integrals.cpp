@@ -203,7 +203,7 @@ MassModel mass_model(const mesh::Mesh& mesh, const Structure& structure, const D
                   .dofs = dofs,
                   .comm = comm,
                   .sections = map_sections(mesh, structure),
-                  .normals = mean_normals(mesh),
+                  .directors = shell_directors(mesh),
                   .mass_nodes = {},
                   .masses = {},
                   .pattern = {}};

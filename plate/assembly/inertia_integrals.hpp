@@ -21,7 +21,7 @@ struct MassModel {
   const DofMap& dofs;
   MPI_Comm comm;
   SectionMap sections;
-  NodeVectors normals;
+  Directors directors;
   std::vector<int> mass_nodes;  ///< node of each lumped mass
   std::vector<PointMass> masses;
   BlockPattern pattern;  ///< of the rows of this rank

@@ -35,11 +35,11 @@ struct ShellOfMesh {
 };
 
 /// Section forces of one element at its `resultant_points`.
-ShellResultants element_resultants(const ShellOfMesh& shell, const NodeVectors& normals,
+ShellResultants element_resultants(const ShellOfMesh& shell, const Directors& directors,
                                    const MatrixXd& motions)
 {
   const auto& [mesh, block, element, section] = shell;
-  const ShellNodes shell_at = shell_nodes(mesh, block, element, normals, section);
+  const ShellNodes shell_at = shell_nodes(mesh, block, element, directors, section);
   const std::span<const int> nodes = block.element_nodes(element);
   Eigen::VectorXd u_e(6 * std::ssize(nodes));
   for (Eigen::Index i = 0; i < std::ssize(nodes); ++i) {
@@ -55,18 +55,43 @@ struct NodalSums {
   MatrixXd values;  ///< [n_nodes x 17] N, M, Q, the elements and their sides of the normal
 };
 
+/// A direction at each node by which the elements of a group are told to have one side or the
+/// other.
+NodeVectors sides_of(const mesh::Mesh& mesh, int group, const Directors& directors)
+{
+  NodeVectors sides = directors.common;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const mesh::ElementBlock& block = mesh.blocks[b];
+    const auto& own = directors.own[b];
+    const auto n = static_cast<std::size_t>(block.nodes_per_element);
+    for (std::size_t slot = 0; slot < block.nodes.size() && !own.empty(); ++slot) {
+      const auto found = own.find(slot);
+      if (found == own.end() || block.group[slot / n] != group) continue;
+      auto sum = sides.row(block.nodes[slot]);
+      sum += (sum.dot(found->second) < 0.0 ? -1.0 : 1.0) * found->second;
+    }
+  }
+  return sides;
+}
+
+/// Directors of a mesh, and the sides of the elements of a group.
+struct Orientation {
+  Directors directors;
+  NodeVectors sides;  ///< `sides_of` the group
+};
+
 /// Adds the extrapolated section forces of one element.
-void add_element(const ShellOfMesh& shell, const NodeVectors& normals, const MatrixXd& motions,
+void add_element(const ShellOfMesh& shell, const Orientation& orientation, const MatrixXd& motions,
                  NodalSums& sums)
 {
-  const ShellResultants at_points = element_resultants(shell, normals, motions);
+  const ShellResultants at_points = element_resultants(shell, orientation.directors, motions);
   const MatrixXd E = extrapolation_to_nodes(shell.block.shape, shell.block.order);
   const MatrixXd N = E * at_points.N, M = E * at_points.M, Q = E * at_points.Q;
   const NodeVectors D =
-      shell_nodes(shell.mesh, shell.block, shell.element, normals, shell.section).D;
+      shell_nodes(shell.mesh, shell.block, shell.element, orientation.directors, shell.section).D;
   const std::span<const int> nodes = shell.block.element_nodes(shell.element);
   for (Eigen::Index i = 0; i < E.rows(); ++i) {
-    const double side = D.row(i).dot(normals.row(nodes[i])) < 0.0 ? -1.0 : 1.0;
+    const double side = D.row(i).dot(orientation.sides.row(nodes[i])) < 0.0 ? -1.0 : 1.0;
     sums.values.row(nodes[i]).segment<6>(0) += N.row(i);
     sums.values.row(nodes[i]).segment<6>(6) += side * M.row(i);
     sums.values.row(nodes[i]).segment<3>(12) += side * Q.row(i);
@@ -104,14 +129,16 @@ ShellResultants nodal_resultants(const mesh::Mesh& mesh, const ShellSection& sec
 {
   const mesh::Group& group = mesh::find_group(mesh, section.group);
   const auto index = static_cast<int>(&group - mesh.groups.data());
-  const NodeVectors normals = mean_normals(mesh);
+  Directors directors = shell_directors(mesh);
+  NodeVectors sides = sides_of(mesh, index, directors);
+  const Orientation orientation{.directors = std::move(directors), .sides = std::move(sides)};
   NodalSums sums{.values = MatrixXd::Zero(mesh.n_nodes(), 17)};
   const int rank = petsc::rank(comm), n_ranks = petsc::size(comm);
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (block.shape == mesh::Shape::line) continue;
     for (int e = rank; e < block.n_elements(); e += n_ranks) {
       if (block.group[e] != index) continue;
-      add_element({mesh, block, e, section}, normals, motions, sums);
+      add_element({mesh, block, e, section}, orientation, motions, sums);
     }
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.values.data(), static_cast<int>(sums.values.size()), MPI_DOUBLE,

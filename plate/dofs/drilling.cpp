@@ -140,7 +140,7 @@ MatrixX3d drilling_axes(const mesh::Mesh& mesh, const DofMap& dofs, std::span<co
   NodeMask wanted(std::size_t(mesh.n_nodes()), 0);
   for (const int node : nodes)
     if (node < dofs.n_mesh_nodes()) wanted[std::size_t(node)] = 1;
-  const NodeVectors normals = smooth_normals(mesh, std::move(wanted));
+  const NodeVectors normals = shell_directors(mesh, std::move(wanted)).common;
   const std::vector<bool> is_other = have_other_stiffness(mesh, dofs);
   for (Eigen::Index i = 0; i < axes.rows(); ++i) {
     const int node = nodes[std::size_t(i)];

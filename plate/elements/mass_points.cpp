@@ -64,11 +64,12 @@ MassPoints shell_mass_points(mesh::Shape shape, int order, const ShellNodes& nod
   const auto& [rule, basis] = shell_rule(shape, order);
   const ShellFrame frame = shell_frame(basis, nodes);
   MassPoints points = empty_points(rule.size() * std::ssize(thickness_points), nodes.x.rows());
+  const Eigen::VectorXd weight = density * rule.weight.cwiseProduct(leaning(basis, frame, nodes));
   Index p = 0;
   for (const double zeta : thickness_points) {
     const NodeVectors x = nodes.x + zeta * nodes.D;
     for (Index q = 0; q < rule.size(); ++q, ++p) {
-      points.dm[p] = density * rule.weight[q] * volume_element(frame, q, zeta);
+      points.dm[p] = weight[q] * volume_element(frame, q, zeta);
       points.x.row(p) = basis.N.row(q) * x;
       // u = sum N_i (u_i + zeta theta_i x D_i)
       for (Index i = 0; i < nodes.x.rows(); ++i) {

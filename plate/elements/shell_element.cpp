@@ -83,9 +83,11 @@ MatrixXd mass(const Rule& rule, const ShellNodes& nodes, double density)
   const ShellFrame frame = shell_frame(rule.basis, nodes);
   const Index n = nodes.x.rows();
   Eigen::MatrixX3d moment = Eigen::MatrixX3d::Zero(rule.points.size(), 3);
+  const Eigen::VectorXd weight =
+      density * rule.points.weight.cwiseProduct(leaning(rule.basis, frame, nodes));
   for (const double zeta : thickness_points) {
     for (Index q = 0; q < rule.points.size(); ++q) {
-      const double m = density * rule.points.weight[q] * volume_element(frame, q, zeta);
+      const double m = weight[q] * volume_element(frame, q, zeta);
       moment.row(q) += m * Eigen::RowVector3d(1.0, zeta, zeta * zeta);
     }
   }

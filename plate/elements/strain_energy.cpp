@@ -93,6 +93,16 @@ double volume_element(const ShellFrame& frame, Index q, double zeta)
   return g_1.cross(g_2).dot(frame.d.row(q));
 }
 
+Eigen::VectorXd leaning(const Basis& basis, const ShellFrame& frame, const ShellNodes& nodes)
+{
+  Eigen::VectorXd factor = basis.N * nodes.D.rowwise().norm();  // t / 2
+  for (Index q = 0; q < factor.size(); ++q) {
+    const Vector3d area = frame.a_1.row(q).cross(frame.a_2.row(q));
+    factor[q] *= area.norm() / area.dot(frame.d.row(q).transpose());
+  }
+  return factor;
+}
+
 MatrixXd stiffness(const CovariantStrains& strains, const ShellFrame& frame, const Points& points,
                    const Eigen::Matrix<double, Eigen::Dynamic, 5>& root)
 {

@@ -6,9 +6,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "common/error.hpp"
+#include "mesh/tangents.hpp"
+#include "plate/elements/element_rules.hpp"
+#include "plate/elements/strain_energy.hpp"
 #include "plate/sections/profile.hpp"
 
 namespace chladni::plate {
@@ -16,36 +22,34 @@ namespace chladni::plate {
 namespace {
 
 using Eigen::Index;
+using Eigen::Matrix3d;
 using Eigen::RowVector3d;
 
-const double smooth_cosine = std::cos(20.0 * std::numbers::pi / 180.0);
+// A fold of exactly 40 degrees, as in a prism of nine sides, is smooth in spite of round-off.
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double smooth_fold = (40.0 + 1e-6) * degree;
+const double smooth_cosine = std::cos(0.5 * smooth_fold);
 
-Basis nodal_basis(const mesh::ElementBlock& block)
+/// The slopes of the shape functions at the nodes, computed once for a type of element.
+const mesh::ShapeDerivatives& nodal_derivatives(const mesh::ElementBlock& block)
 {
-  const int p = block.order;
-  if (block.shape == mesh::Shape::quadrilateral) {
-    const Eigen::VectorXd lattice = Eigen::VectorXd::LinSpaced(p + 1, -1.0, 1.0);
-    return lagrange_basis(block.shape, p, tensor_points(lattice, lattice));
-  }
-  Points points{.xi = Eigen::VectorXd(block.nodes_per_element),
-                .eta = Eigen::VectorXd(block.nodes_per_element),
-                .weight = Eigen::VectorXd::Ones(block.nodes_per_element)};
-  for (int j = 0, k = 0; j <= p; ++j) {
-    for (int i = 0; i <= p - j; ++i, ++k) {
-      points.xi[k] = double(i) / p;
-      points.eta[k] = double(j) / p;
-    }
-  }
-  return lagrange_basis(block.shape, p, points);
+  static std::map<std::pair<mesh::Shape, int>, mesh::ShapeDerivatives> cache;
+  const std::pair key{block.shape, block.order};
+  const auto it = cache.find(key);
+  return it != cache.end()
+             ? it->second
+             : cache.emplace(key, mesh::node_derivatives(block.shape, block.order)).first->second;
 }
 
 /// Unit normals at the nodes of one element.
-NodeVectors element_normals(const Basis& at_nodes, const NodeVectors& x)
+NodeVectors element_normals(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element)
 {
-  const NodeVectors a_1 = at_nodes.N_xi * x;
-  const NodeVectors a_2 = at_nodes.N_eta * x;
-  NodeVectors normals(x.rows(), 3);
-  for (Index i = 0; i < x.rows(); ++i) normals.row(i) = a_1.row(i).cross(a_2.row(i)).normalized();
+  const mesh::ShapeDerivatives& derivatives = nodal_derivatives(block);
+  NodeVectors normals(block.nodes_per_element, 3);
+  for (int k = 0; k < block.nodes_per_element; ++k) {
+    const auto [a_1, a_2] = mesh::tangents(mesh, block.element_nodes(element), derivatives, k);
+    normals.row(k) = RowVector3d(mesh::cross(a_1, a_2).data()).normalized();
+  }
   return normals;
 }
 
@@ -62,17 +66,235 @@ void check_normals(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int 
   }
 }
 
-/// Nodes of the cut edges of a sector have the elements of both its neighbours around them.
-void add_over_sector_edges(const mesh::Mesh& mesh, NodeVectors& sum)
-{
-  const double angle = 2.0 * std::numbers::pi / mesh.sectors.count;
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).matrix();
-  for (const auto& [low, high] : mesh.sectors.pairs) {
-    const RowVector3d at_low = sum.row(low), from_high = sum.row(high) * turn;
-    const RowVector3d both = at_low + (at_low.dot(from_high) < 0.0 ? -1.0 : 1.0) * from_high;
-    sum.row(low) = both;
-    sum.row(high) = both * turn.transpose();
+/// The cut edges of a sector are one: its nodes stand for both, seen from the low edge.
+struct CutEdges {
+  std::unordered_map<int, int> low_of;   ///< of the nodes of the high edge
+  Matrix3d turn = Matrix3d::Identity();  ///< row vectors from low to high
+
+  explicit CutEdges(const mesh::Sectors& sectors)
+  {
+    const double angle = 2.0 * std::numbers::pi / sectors.count;
+    turn = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).matrix().transpose();
+    for (const auto& [low, high] : sectors.pairs) low_of.emplace(high, low);
   }
+  /// The node that stands for this one.
+  int place(int node) const
+  {
+    const auto found = low_of.find(node);
+    return found == low_of.end() ? node : found->second;
+  }
+  RowVector3d from_place(int node, const RowVector3d& v) const
+  {
+    return low_of.contains(node) ? RowVector3d(v * turn) : v;
+  }
+  RowVector3d to_place(int node, const RowVector3d& v) const
+  {
+    return low_of.contains(node) ? RowVector3d(v * turn.transpose()) : v;
+  }
+};
+
+/// Both nodes of a pair on the cut edges of a sector, where one is wanted.
+NodeMask with_partners(const mesh::Mesh& mesh, NodeMask wanted)
+{
+  if (wanted.empty()) return NodeMask(std::size_t(mesh.n_nodes()), 1);
+  for (const auto& [low, high] : mesh.sectors.pairs)
+    if (wanted[low] != 0 || wanted[high] != 0) wanted[low] = wanted[high] = 1;
+  return wanted;
+}
+
+/// Calls visit(block, element) for the surface elements with a node that is wanted.
+template <typename Visit>
+void for_elements(const mesh::Mesh& mesh, const NodeMask& wanted, const Visit& visit)
+{
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (block.shape == mesh::Shape::line) continue;
+    for (int e = 0; e < block.n_elements(); ++e) {
+      const auto is_wanted = [&](int node) { return wanted[std::size_t(node)] != 0; };
+      if (std::ranges::any_of(block.element_nodes(e), is_wanted)) visit(block, e);
+    }
+  }
+}
+
+/// An element at one of its nodes, seen from the low cut edge.
+struct Face {
+  int place;  ///< the node, or that which stands for it
+  int node;
+  std::size_t block, slot;  ///< nodes_per_element * element + place in the element
+  mesh::FaceAtNode at;
+};
+
+RowVector3d row(const mesh::Vector& v)
+{
+  return {v[0], v[1], v[2]};
+}
+
+mesh::Vector vector(const RowVector3d& v)
+{
+  return {v[0], v[1], v[2]};
+}
+
+Face seen_from_low(Face face, const CutEdges& cut)
+{
+  const auto turn = [&](mesh::Vector& v) { v = vector(cut.to_place(face.node, row(v))); };
+  turn(face.at.normal);
+  for (mesh::EdgeAtNode& edge : face.at.edges) {
+    turn(edge.along);
+    turn(edge.inward);
+    edge.next = cut.place(edge.next);
+    if (edge.other >= 0) edge.other = cut.place(edge.other);
+    if (edge.other < 0 || edge.next < edge.other) continue;
+    std::swap(edge.next, edge.other);
+    edge.along = vector(-row(edge.along));
+  }
+  return face;
+}
+
+/// Two faces that share an edge at a node.
+struct Fold {
+  std::size_t a, b;
+  int edge;      ///< its neighbour
+  double angle;  ///< rad, between one face and the continuation of the other
+  double side;   ///< -1: they are oriented to opposite sides
+};
+
+/// Positive if the edge goes around the element as its normal tells.
+double handedness(const mesh::EdgeAtNode& edge, const Face& face)
+{
+  return mesh::dot(mesh::cross(edge.along, edge.inward), face.at.normal);
+}
+
+std::vector<Fold> folds_between(std::span<const Face> faces)
+{
+  std::vector<Fold> folds;
+  for (std::size_t b = 0; b < faces.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) {
+      for (const mesh::EdgeAtNode& of_a : faces[a].at.edges) {
+        for (const mesh::EdgeAtNode& of_b : faces[b].at.edges) {
+          if (of_a.next != of_b.next || of_a.other != of_b.other) continue;
+          const double side = handedness(of_a, faces[a]) * handedness(of_b, faces[b]);
+          folds.push_back({.a = a,
+                           .b = b,
+                           .edge = of_a.next,
+                           .angle = mesh::fold_angle(of_a.inward, of_b.inward),
+                           .side = side < 0.0 ? 1.0 : -1.0});
+        }
+      }
+    }
+  }
+  return folds;
+}
+
+/// True if `other` is the same fold but for a face that lies on one of its faces.
+bool is_double_of(const Fold& other, const Fold& fold, std::span<const Fold> folds)
+{
+  constexpr double flat = 179.0 * degree;
+  const bool has_a = other.a == fold.a || other.b == fold.a;
+  const std::size_t common = has_a ? fold.a : fold.b, replaced = has_a ? fold.b : fold.a;
+  const std::size_t by = other.a == common ? other.b : other.a;
+  return std::ranges::any_of(folds, [&](const Fold& between) {
+    return between.a == std::min(replaced, by) && between.b == std::max(replaced, by) &&
+           between.angle > flat;
+  });
+}
+
+/// True if the surface goes on over this fold.
+bool is_smooth(const Fold& fold, std::span<const Fold> folds)
+{
+  if (fold.angle > smooth_fold) return false;
+  return std::ranges::all_of(folds, [&](const Fold& other) {
+    const bool is_rival =
+        &other != &fold && other.edge == fold.edge &&
+        (other.a == fold.a || other.b == fold.a || other.a == fold.b || other.b == fold.b);
+    return !is_rival || fold.angle <= 0.5 * other.angle || is_double_of(other, fold, folds);
+  });
+}
+
+/// The sheet of each face, and its side of it.
+struct Sheets {
+  std::vector<int> of_face;
+  std::vector<double> side;
+  int n = 0;
+};
+
+Sheets sheets_of(std::span<const Face> faces)
+{
+  const std::vector<Fold> folds = folds_between(faces);
+  std::vector<Fold> smooth;
+  std::ranges::copy_if(folds, std::back_inserter(smooth),
+                       [&](const Fold& fold) { return is_smooth(fold, folds); });
+  Sheets sheets{.of_face = std::vector<int>(faces.size(), -1),
+                .side = std::vector<double>(faces.size(), 1.0)};
+  for (std::size_t first = 0; first < faces.size(); ++first) {
+    if (sheets.of_face[first] >= 0) continue;
+    std::vector<std::size_t> reached{first};
+    sheets.of_face[first] = sheets.n;
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      for (const Fold& fold : smooth) {
+        if (fold.a != reached[i] && fold.b != reached[i]) continue;
+        const std::size_t other = fold.a == reached[i] ? fold.b : fold.a;
+        if (sheets.of_face[other] >= 0) continue;
+        sheets.of_face[other] = sheets.n;
+        sheets.side[other] = sheets.side[reached[i]] * fold.side;
+        reached.push_back(other);
+      }
+    }
+    ++sheets.n;
+  }
+  return sheets;
+}
+
+/// Writes the directors of the faces at one node.
+void add_directors(std::span<const Face> faces, const CutEdges& cut, Directors& directors)
+{
+  const Sheets sheets = sheets_of(faces);
+  NodeVectors mean = NodeVectors::Zero(sheets.n, 3);
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    mean.row(sheets.of_face[i]) += sheets.side[i] * faces[i].at.angle * row(faces[i].at.normal);
+  mean.rowwise().normalize();
+  std::vector<RowVector3d> of_face(faces.size());
+  bool is_common = sheets.n == 1;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    of_face[i] = sheets.side[i] * mean.row(sheets.of_face[i]);
+    const RowVector3d normal = row(faces[i].at.normal);
+    if (of_face[i].dot(normal) > smooth_cosine) continue;
+    of_face[i] = normal;
+    is_common = false;
+  }
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const RowVector3d here =
+        cut.from_place(faces[i].node, is_common ? RowVector3d(mean.row(0)) : of_face[i]);
+    if (is_common)
+      directors.common.row(faces[i].node) = here;
+    else
+      directors.own[faces[i].block].emplace(faces[i].slot, here);
+  }
+}
+
+/// Nodes whose elements have normals that are not parallel. The normal of the first element of each
+/// node becomes the common director.
+NodeMask find_folds(const mesh::Mesh& mesh, const NodeMask& wanted, const CutEdges& cut,
+                    Directors& directors)
+{
+  constexpr double round_off = 1e-14;
+  NodeMask is_fold(std::size_t(mesh.n_nodes()), 0);
+  for_elements(mesh, wanted, [&](const mesh::ElementBlock& block, int e) {
+    const NodeVectors normals = element_normals(mesh, block, e);
+    check_normals(mesh, block, e, normals);
+    const std::span<const int> nodes = block.element_nodes(e);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const int node = nodes[k], place = cut.place(node);
+      if (wanted[node] == 0) continue;
+      const RowVector3d normal = cut.to_place(node, normals.row(Index(k)));
+      auto first = directors.common.row(place);
+      if (first.isZero(0.0)) first = normal;
+      if (!(first.cross(normal).squaredNorm() <= round_off * round_off)) is_fold[place] = 1;
+    }
+  });
+  for (const auto& [low, high] : mesh.sectors.pairs) {
+    is_fold[high] = is_fold[low];
+    directors.common.row(high) = cut.from_place(high, directors.common.row(low));
+  }
+  return is_fold;
 }
 
 }  // namespace
@@ -87,82 +309,98 @@ NodeVectors element_positions(const mesh::Mesh& mesh, const mesh::ElementBlock& 
   return x;
 }
 
-namespace {
-
-/// Both nodes of a pair on the cut edges of a sector, where one is wanted.
-NodeMask with_partners(const mesh::Mesh& mesh, NodeMask wanted)
+Directors shell_directors(const mesh::Mesh& mesh, NodeMask wanted)
 {
-  if (wanted.empty()) return NodeMask(std::size_t(mesh.n_nodes()), 1);
-  for (const auto& [low, high] : mesh.sectors.pairs)
-    if (wanted[low] != 0 || wanted[high] != 0) wanted[low] = wanted[high] = 1;
-  return wanted;
+  wanted = with_partners(mesh, std::move(wanted));
+  const CutEdges cut(mesh.sectors);
+  Directors directors{.common = NodeVectors::Zero(mesh.n_nodes(), 3), .own = {}};
+  directors.own.resize(mesh.blocks.size());
+  const NodeMask is_fold = find_folds(mesh, wanted, cut, directors);
+  std::vector<Face> faces;
+  for_elements(mesh, is_fold, [&](const mesh::ElementBlock& block, int e) {
+    const std::span<const int> nodes = block.element_nodes(e);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (is_fold[nodes[k]] == 0) continue;
+      directors.common.row(nodes[k]).setZero();
+      faces.push_back(seen_from_low(
+          {.place = cut.place(nodes[k]),
+           .node = nodes[k],
+           .block = std::size_t(&block - mesh.blocks.data()),
+           .slot = std::size_t(e) * nodes.size() + k,
+           .at = mesh::face_at_node(mesh, block, e, int(k), nodal_derivatives(block))},
+          cut));
+    }
+  });
+  std::ranges::stable_sort(faces, {}, &Face::place);
+  for (std::size_t first = 0; first < faces.size();) {
+    std::size_t last = first;
+    while (last < faces.size() && faces[last].place == faces[first].place) ++last;
+    add_directors(std::span(faces).subspan(first, last - first), cut, directors);
+    first = last;
+  }
+  return directors;
 }
 
-/// Calls visit(node, its normal in the element) for the nodes that are wanted, after
-/// check(block, element, normals).
-template <typename Check, typename Visit>
-void for_normals(const mesh::Mesh& mesh, const NodeMask& wanted, const Check& check,
-                 const Visit& visit)
+namespace {
+
+/// Of an element at all its nodes, to the side to which it is oriented.
+NodeVectors unit_directors(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element,
+                           const Directors& directors, const NodeVectors& normals)
 {
-  for (const mesh::ElementBlock& block : mesh.blocks) {
-    if (block.shape == mesh::Shape::line) continue;
-    const Basis at_nodes = nodal_basis(block);
-    for (int e = 0; e < block.n_elements(); ++e) {
-      const auto nodes = block.element_nodes(e);
-      if (std::ranges::none_of(nodes, [&](int node) { return wanted[node] != 0; })) continue;
-      const NodeVectors normals = element_normals(at_nodes, element_positions(mesh, block, e));
-      check(block, e, normals);
-      for (Index i = 0; i < normals.rows(); ++i)
-        if (wanted[nodes[i]] != 0) visit(nodes[i], normals.row(i));
+  NodeVectors d = normals;
+  const auto& own = directors.own[std::size_t(&block - mesh.blocks.data())];
+  for (Index i = 0; i < d.rows(); ++i) {
+    const RowVector3d common = directors.common.row(block.element_nodes(element)[i]);
+    const double cosine = common.dot(normals.row(i));
+    if (cosine != 0.0) {
+      d.row(i) = cosine < 0.0 ? RowVector3d(-common) : common;
+      continue;
     }
+    const auto found = own.find(std::size_t(element) * std::size_t(d.rows()) + std::size_t(i));
+    if (found != own.end()) d.row(i) = found->second;
   }
+  return d;
+}
+
+/// Thickness and offset along unit directors.
+ShellNodes with_thickness(const mesh::Mesh& mesh, std::span<const int> nodes, NodeVectors d,
+                          const ShellSection& section)
+{
+  ShellNodes shell{.x = NodeVectors(d.rows(), 3), .D = std::move(d)};
+  for (Index i = 0; i < shell.D.rows(); ++i) {
+    const auto& x = mesh.positions[nodes[i]];
+    shell.x.row(i) = RowVector3d(x.data()) + value_at(section.offset, x) * shell.D.row(i);
+    shell.D.row(i) *= 0.5 * value_at(section.thickness, x);
+  }
+  return shell;
+}
+
+/// The faces of the element cross, or nearly so, at an integration point.
+bool faces_cross(const mesh::ElementBlock& block, const ShellNodes& nodes)
+{
+  constexpr double little = 0.1;
+  const ShellFrame frame = shell_frame(rules_of(block.shape, block.order).full.basis, nodes);
+  for (Index q = 0; q < frame.d.rows(); ++q) {
+    const RowVector3d area = frame.a_1.row(q).cross(frame.a_2.row(q));
+    const double middle = area.dot(frame.d.row(q));
+    for (const double zeta : thickness_points)
+      if (!(volume_element(frame, q, zeta) > little * middle)) return true;
+  }
+  return false;
 }
 
 }  // namespace
 
-NodeVectors mean_normals(const mesh::Mesh& mesh, NodeMask wanted)
-{
-  NodeVectors sum = NodeVectors::Zero(mesh.n_nodes(), 3);
-  const auto check = [&](const mesh::ElementBlock& block, int e, const NodeVectors& normals) {
-    check_normals(mesh, block, e, normals);
-  };
-  for_normals(mesh, with_partners(mesh, std::move(wanted)), check,
-              [&](int node, const RowVector3d& normal) {
-                auto node_sum = sum.row(node);
-                const double side = node_sum.dot(normal) < 0.0 ? -1.0 : 1.0;
-                node_sum += side * normal;
-              });
-  add_over_sector_edges(mesh, sum);
-  sum.rowwise().normalize();
-  return sum;
-}
-
-NodeVectors smooth_normals(const mesh::Mesh& mesh, NodeMask wanted)
-{
-  const NodeVectors mean = mean_normals(mesh, wanted);
-  NodeVectors smooth = mean;
-  if (wanted.empty()) wanted.assign(std::size_t(mesh.n_nodes()), 1);
-  const auto is_checked = [](const auto&...) {};
-  for_normals(mesh, wanted, is_checked, [&](int node, const RowVector3d& normal) {
-    if (!(std::abs(mean.row(node).dot(normal)) > smooth_cosine)) smooth.row(node).setZero();
-  });
-  return smooth;
-}
-
 ShellNodes shell_nodes(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element,
-                       const NodeVectors& normals, const ShellSection& section)
+                       const Directors& directors, const ShellSection& section)
 {
-  NodeVectors x = element_positions(mesh, block, element);
-  NodeVectors D = element_normals(nodal_basis(block), x);
-  for (Index i = 0; i < D.rows(); ++i) {
-    const int node = block.element_nodes(element)[i];
-    const RowVector3d mean = normals.row(node);
-    const double cosine = mean.dot(D.row(i));
-    if (std::abs(cosine) > smooth_cosine) D.row(i) = cosine < 0.0 ? RowVector3d(-mean) : mean;
-    x.row(i) += value_at(section.offset, mesh.positions[node]) * D.row(i);
-    D.row(i) *= 0.5 * value_at(section.thickness, mesh.positions[node]);
-  }
-  return {.x = x, .D = D};
+  const std::span<const int> nodes = block.element_nodes(element);
+  const NodeVectors normals = element_normals(mesh, block, element);
+  const NodeVectors d = unit_directors(mesh, block, element, directors, normals);
+  ShellNodes shell = with_thickness(mesh, nodes, d, section);
+  if (!(d - normals).isZero(1e-6) && faces_cross(block, shell))
+    shell = with_thickness(mesh, nodes, normals, section);
+  return shell;
 }
 
 }  // namespace chladni::plate

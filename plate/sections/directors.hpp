@@ -1,5 +1,8 @@
 #pragma once
 
+#include <unordered_map>
+#include <vector>
+
 #include "mesh/mesh.hpp"
 #include "plate/elements/covariant_strains.hpp"
 #include "plate/plate_options.hpp"
@@ -12,24 +15,32 @@ NodeVectors element_positions(const mesh::Mesh& mesh, const mesh::ElementBlock& 
 /// For each node of a mesh whether something is wanted of it.
 using NodeMask = std::vector<char>;
 
-/// The mean unit normal at every node over the surface elements that meet there, [n_nodes x 3];
-/// zero where there are none. Normals of elements with opposite orientation are reversed.
-/// @param wanted  nodes whose normals are computed, those of the others being zero; empty: all
+/// The unit directors of the surface elements at their nodes.
+///
+/// The elements at a node form sheets. Two that share an edge there are of one sheet where the edge
+/// folds by 40 degrees at most; of three and more that share it, as in a T joint, two are where the
+/// edge folds half as much between them as between either and any other. The director of a sheet is
+/// the mean of its elements' normals, weighted by their angles at the node, but an element whose
+/// own normal is more than 20 degrees off has that.
+struct Directors {
+  /// [n_nodes x 3] Of nodes with one director for all elements, either way round; zero elsewhere.
+  NodeVectors common;
+  /// Of other nodes: [n_blocks] from nodes_per_element * element + place in the element, to the
+  /// side to which it is oriented.
+  std::vector<std::unordered_map<std::size_t, Eigen::RowVector3d>> own;
+};
+
+/// The directors of a mesh. The elements at the cut edges of a sector have neighbours in the next.
+/// @param wanted  nodes at which they are computed, those of the others being zero; empty: all
 /// @throws chladni::Error naming an element and node where the Jacobian is not positive; of the
 ///         elements with a node that is wanted.
-NodeVectors mean_normals(const mesh::Mesh& mesh, NodeMask wanted = {});
-
-/// The mean normals of nodes at which they are the directors of all elements, [n_nodes x 3]; zero
-/// at kinks, and where there are no surface elements.
-/// @param wanted  as of `mean_normals`
-/// @throws chladni::Error as `mean_normals`.
-NodeVectors smooth_normals(const mesh::Mesh& mesh, NodeMask wanted = {});
+Directors shell_directors(const mesh::Mesh& mesh, NodeMask wanted = {});
 
 /// Mid-surface points of one element, at the section's offset from the mesh, and its half-thickness
-/// directors. A director is the mean normal where the surface is smooth, and the element's own
-/// normal at a kink of more than 20 degrees. It points to the side to which the element is
-/// oriented.
+/// directors, to the side to which the element is oriented. Thickness and offset are lengths along
+/// the directors. Where faces would cross in an element smaller than the thickness, its directors
+/// are its own normals.
 ShellNodes shell_nodes(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element,
-                       const NodeVectors& normals, const ShellSection& section);
+                       const Directors& directors, const ShellSection& section);
 
 }  // namespace chladni::plate

@@ -43,6 +43,26 @@ void check_thickness(const mesh::Mesh& mesh, const ShellSection& section)
   }
 }
 
+/// An entry that is not a number would be found in a factor or a spectrum of all elements, if at
+/// all.
+void refuse_not_finite(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element,
+                       const ElementMatrices& matrices)
+{
+  const bool is_K = matrices.K.allFinite(), is_M = matrices.M.allFinite();
+  if (is_K && is_M) return;
+  const std::string group = mesh.groups[std::size_t(block.group[element])].name;
+  const char* which = is_K ? "mass" : is_M ? "stiffness" : "stiffness and mass";
+  const char* why =
+      kind_of(block) == Kind::beam
+          ? "look at its length, section and material"
+          : "the two faces of the shell cross in it, because it is curved more sharply than half "
+            "its "
+            "thickness, or its values overflow; make the section thinner, round the corner more "
+            "widely, or model it by a fold between flat parts";
+  throw Error(fmt::format("element {} of group \"{}\": its {} is not a number: {}",
+                          block.numbers[element], group, which, why));
+}
+
 template <class Section>
 double loss_factor_of(const Section& section)
 {
@@ -100,12 +120,16 @@ PlacedMatrices element_matrices(const mesh::Mesh& mesh, const mesh::ElementBlock
   if (kind_of(block) == Kind::beam) {
     const LineFields fields =
         line_fields(context.sections.on_surface, block.element_nodes(element));
-    return {.matrices = beam_matrices(x, context.structure.beams[index], fields), .arms = {}};
+    PlacedMatrices line{.matrices = beam_matrices(x, context.structure.beams[index], fields),
+                        .arms = {}};
+    refuse_not_finite(mesh, block, element, line.matrices);
+    return line;
   }
   const ShellSection& section = context.structure.shells[index];
-  const ShellNodes shell = shell_nodes(mesh, block, element, context.normals, section);
+  const ShellNodes shell = shell_nodes(mesh, block, element, context.directors, section);
   PlacedMatrices placed{
       .matrices = shell_matrices(block.shape, block.order, shell, section.material), .arms = {}};
+  refuse_not_finite(mesh, block, element, placed.matrices);
   if (section.offset != Profile(0.0)) placed.arms = shell.x - x;
   return placed;
 }

@@ -8,6 +8,7 @@
 #include "plate/elements/covariant_strains.hpp"
 #include "plate/elements/element_matrices.hpp"
 #include "plate/plate_options.hpp"
+#include "plate/sections/directors.hpp"
 
 namespace chladni::plate {
 
@@ -35,7 +36,7 @@ SectionMap map_sections(const mesh::Mesh& mesh, const Structure& structure);
 struct ElementContext {
   const SectionMap& sections;
   const Structure& structure;
-  const NodeVectors& normals;  ///< [n_nodes x 3] mean_normals
+  const Directors& directors;
 };
 
 /// K_e and M_e of an element, and the places of its DOFs.

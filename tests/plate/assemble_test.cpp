@@ -7,7 +7,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/error.hpp"
 #include "small_disc.hpp"
+#include "square_plate.hpp"
 
 namespace chladni::plate {
 namespace {
@@ -438,6 +440,41 @@ TEST(Assemble, NamesAnElementWithoutSection)
   const DofMap map =
       make_dof_map(mesh, {.couplings = testing::hub}, mesh::node_owners(mesh, n_ranks), n_ranks);
   EXPECT_THROW(assemble(mesh, Structure{}, map, PETSC_COMM_WORLD), Error);
+}
+
+/// A part of a cylinder about z, of an angle.
+mesh::Mesh bent_plate(double radius, double angle, testing::Rectangle flat)
+{
+  flat.a = radius * angle;
+  mesh::Mesh mesh = testing::rectangle(flat);
+  for (std::array<double, 3>& x : mesh.positions)
+    x = {radius * std::cos(x[0] / radius), radius * std::sin(x[0] / radius), x[1]};
+  return mesh;
+}
+
+std::string error_of_assembly(const mesh::Mesh& mesh, double thickness)
+{
+  const ShellSection section{
+      .group = "plate", .material = testing::section[0].material, .thickness = thickness};
+  const int n = petsc::size(PETSC_COMM_WORLD);
+  try {
+    assemble(mesh, std::span(&section, 1), make_dof_map(mesh, {}, mesh::node_owners(mesh, n), n),
+             PETSC_COMM_WORLD);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Assemble, RefusesByElementWhatIsNotANumber)
+{
+  const mesh::Mesh mesh =
+      bent_plate(0.1, 1.5, {.a = 0.0, .b = 0.1, .n_x = 4, .n_y = 3, .order = 3});
+  // The inner points of integration are at 0.577 of the half thickness from the middle.
+  EXPECT_EQ(error_of_assembly(mesh, 0.3), "");
+  const std::string text = error_of_assembly(mesh, 0.5);
+  for (const char* word : {"of group \"plate\"", "stiffness", "not a number", "thinner"})
+    EXPECT_NE(text.find(word), std::string::npos) << text;
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "common/petsc_compat.hpp"
@@ -10,6 +12,7 @@
 #include "plate/dofs/point_elements.hpp"
 #include "plate/elements/mass_points.hpp"
 #include "small_disc.hpp"
+#include "square_plate.hpp"
 
 namespace chladni::plate {
 namespace {
@@ -169,6 +172,38 @@ TEST(MassPoints, OfARigidBodyMakeItsMassMatrix)
     for (const StrainRows& N : points.N) M += N.transpose() * points.dm.asDiagonal() * N;
     EXPECT_LT((M - point_mass_matrix(mass)).norm(), 1e-14);
     EXPECT_LT((points.x.transpose() * points.dm - 2.0 * Vector3d(1.4, 1.5, 3.6)).norm(), 1e-14);
+  }
+}
+
+TEST(MassMoments, OfTwoPlatesInAFoldAreThoseOfBothPlates)
+{
+  // Two squares of 0.1 m, 10 mm thick, with a common edge at x = 0.1 m.
+  for (const double fold : {0.1, 30.0 * std::numbers::pi / 180.0, 0.69, 1.2}) {
+    for (const int order : {1, 3}) {
+      mesh::Mesh mesh =
+          testing::rectangle({.a = 0.2, .b = 0.1, .n_x = 2, .n_y = 1, .order = order});
+      for (std::array<double, 3>& x : mesh.positions) {
+        const double beyond = std::max(0.0, x[0] - 0.1);
+        x = {x[0] - beyond + beyond * std::cos(fold), x[1], beyond * std::sin(fold)};
+      }
+      const std::vector<ShellSection> sections{
+          {.group = "plate",
+           .material = {.young = 1.85e11, .poisson = 0.3, .density = 7800.0},
+           .thickness = 0.01}};
+      const Structure structure{.shells = sections};
+      const int n_ranks = petsc::size(PETSC_COMM_WORLD);
+      const DofMap dofs = make_dof_map(mesh, {}, mesh::node_owners(mesh, n_ranks), n_ranks);
+      const System system = assemble(mesh, structure, dofs, PETSC_COMM_WORLD);
+      const MassMoments moments =
+          mass_moments(mass_model(mesh, structure, system.dofs, PETSC_COMM_WORLD));
+      const petsc::Matrix R = rigid_motions(system);
+      petsc::Matrix M_R;
+      petsc::check(MatMatMult(system.M, R, MAT_INITIAL_MATRIX, petsc::automatic, M_R.put()));
+      EXPECT_NEAR(moments.mass, 1.56, 1e-12) << fold << ", " << order;
+      // Faces of leaning directors move mass by t^2 / 12 over the length of an element.
+      EXPECT_NEAR(moments.first.x(), 0.78 * (0.15 + 0.05 * std::cos(fold)), 1e-4) << fold;
+      EXPECT_NEAR(product(R, M_R)(0, 0), 1.56, 1e-12) << fold << ", " << order;
+    }
   }
 }
 

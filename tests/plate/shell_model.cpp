@@ -121,12 +121,12 @@ void add_elements(ShellModel& model, const std::vector<Surface>& surfaces, const
 void assemble(ShellModel& model, const Material& material, double thickness)
 {
   const mesh::ElementBlock& block = model.mesh.blocks[0];
-  const NodeVectors normals = mean_normals(model.mesh);
+  const Directors directors = shell_directors(model.mesh);
   const ShellSection section{.group = {}, .material = material, .thickness = thickness};
   std::vector<Eigen::Triplet<double>> K, M;
   for (int e = 0; e < block.n_elements(); ++e) {
     const ElementMatrices matrices = shell_matrices(
-        block.shape, block.order, shell_nodes(model.mesh, block, e, normals, section), material);
+        block.shape, block.order, shell_nodes(model.mesh, block, e, directors, section), material);
     const auto nodes = block.element_nodes(e);
     const auto dof = [&](Index i) { return 6 * nodes[i / 6] + static_cast<int>(i % 6); };
     for (Index j = 0; j < matrices.K.cols(); ++j) {
