@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/error.hpp"
+#include "squeal/brake/mode_parts.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 
 namespace chladni::sound {
@@ -101,6 +102,7 @@ Stage make_stage(const mbs_export::ModalBody& body, const squeal::SquealOptions&
                  const SoundOptions& sound)
 {
   squeal::Disc disc = squeal::make_disc(body, squeal::ring_choice(squeal), squeal.modes);
+  squeal::refuse_aliases(disc, body);
   ThickBody thick = thick_body(sound.lines, sound.hub, sound.holes);
   SurfaceMotion motion(body, thick, modes_of(disc), harmonics_of(disc));
   return {std::move(disc), std::move(thick), std::move(motion), sound.air};

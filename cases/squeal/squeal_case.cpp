@@ -18,6 +18,7 @@
 #include "mbs_export/files/provenance.hpp"
 #include "report/version.hpp"
 #include "squeal/brake/disc.hpp"
+#include "squeal/brake/mode_parts.hpp"
 #include "squeal/brake/radiation.hpp"
 #include "squeal/models/assembly_brake.hpp"
 #include "squeal/models/flexible_disc.hpp"
@@ -179,6 +180,7 @@ SquealCase squeal_case(const scene::Scene& scene, const std::optional<mbs_export
   if (!body) return model_case(scene, files, stale);
   const squeal::SquealOptions& options = scene.squeal.value();
   squeal::Disc disc = squeal::make_disc(*body, squeal::ring_choice(options), options.modes);
+  squeal::refuse_aliases(disc, *body);
   if (scene.radiation)
     disc = squeal::with_radiation(std::move(disc), read_radiation_of(scene, files, stale));
   std::vector<std::string> notes = squeal::notes_of(disc);

@@ -14,6 +14,7 @@
 #include "squeal/assembly/face_forces.hpp"
 #include "squeal/assembly/joints.hpp"
 #include "squeal/brake/disc.hpp"
+#include "squeal/brake/mode_parts.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -27,7 +28,10 @@ Disc turning_disc(const AssemblyOptions& options, const ModalBody& body)
                          .in_plane = options.planes.has_value(),
                          .slopes_from = options.slopes_from};
   try {
-    return make_disc(body, rings, {.quasi_static_above = std::numeric_limits<double>::infinity()});
+    Disc disc =
+        make_disc(body, rings, {.quasi_static_above = std::numeric_limits<double>::infinity()});
+    refuse_aliases(disc, body);
+    return disc;
   } catch (const Error& error) {
     const auto part = std::ranges::find(options.parts, options.disc, &PartOptions::name);
     throw Error(

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "common/error.hpp"
 #include "squeal/brake/rotation_generator.hpp"
@@ -178,7 +182,95 @@ void check_elastic(const ModalBody& body, const std::vector<int>& modes)
   }
 }
 
+/// The nodal diameters of a mode as the nodes of a ring show them, and as its slope along the ring
+/// tells.
+struct Diameters {
+  int seen, told;
+};
+
+/// The number among `seen` + m N whose slopes are most like these. Those of a shell are smaller
+/// than the slopes of its displacements, by its shear, never by much.
+int told_by_slope(int seen, int n_nodes, double slope)
+{
+  int told = seen;
+  double least = std::numeric_limits<double>::infinity();
+  for (int m = -8; m <= 8; ++m) {
+    const double ratio = slope / (seen + m * n_nodes);
+    if (!(ratio > 0.4 && ratio < 1.3)) continue;
+    const double distance = std::abs(std::log(ratio / 0.9));
+    if (distance < least) {
+      least = distance;
+      told = seen + m * n_nodes;
+    }
+  }
+  return std::abs(told);
+}
+
+/// Of the harmonic with most of the displacement; absent without displacement.
+std::optional<Diameters> diameters_on(const DiscRing& ring, Eigen::Index mode, double limit)
+{
+  const Eigen::VectorXd cosine = ring.W.cosine.col(mode), sine = ring.W.sine.col(mode);
+  const Eigen::VectorXd squares = cosine.cwiseAbs2() + sine.cwiseAbs2();
+  Eigen::Index k = 0;
+  const double most = squares.maxCoeff(&k);
+  if (ring.n_nodes == 0 || most <= limit || 2.0 * most < squares.sum()) return std::nullopt;
+  // W_t = 1/r dW/dtheta of W = cosine cos(k theta) + sine sin(k theta) as the ratio k of both.
+  const double slope = ring.radius *
+                       (sine[k] * ring.W_t.cosine(k, mode) - cosine[k] * ring.W_t.sine(k, mode)) /
+                       most;
+  const auto seen = static_cast<int>(k);
+  return Diameters{.seen = seen, .told = told_by_slope(seen, ring.n_nodes, slope)};
+}
+
+/// A vibration of the disc in the band, not what stands for others.
+bool is_in_band(const ModalBody& body, int i)
+{
+  return is_of_disc(body, i) && kind_of(body, i) != ModeKind::rigid &&
+         body.omega[i] <= range_of(body);
+}
+
+/// The diameters of the modes of a disc in the band on one ring, by their indices in the body.
+std::map<int, Diameters> diameters_in_band(const Disc& disc, const DiscRing& ring,
+                                           const ModalBody& body)
+{
+  const Eigen::VectorXd motion =
+      (ring.W.cosine.cwiseAbs2() + ring.W.sine.cwiseAbs2()).colwise().sum().transpose();
+  const double limit = still_limit * still_limit * (motion.size() > 0 ? motion.maxCoeff() : 0.0);
+  std::map<int, Diameters> found;
+  for (std::size_t column = 0; column < disc.mode_numbers.size(); ++column) {
+    const int i = disc.mode_numbers[column] - 1;
+    const auto diameters = diameters_on(ring, Eigen::Index(column), limit);
+    if (diameters && is_in_band(body, i)) found.emplace(i, *diameters);
+  }
+  for (const int number : disc.alternating)
+    if (ring.n_nodes % 2 == 0 && is_in_band(body, number - 1))
+      found.emplace(number - 1, Diameters{.seen = ring.n_nodes / 2, .told = ring.n_nodes / 2});
+  return found;
+}
+
 }  // namespace
+
+void refuse_aliases(const Disc& disc, const ModalBody& body)
+{
+  for (const DiscRing& ring : disc.rings) {
+    const std::map<int, Diameters> found = diameters_in_band(disc, ring, body);
+    const auto first = std::ranges::find_if(
+        found, [&](const auto& mode) { return 2 * mode.second.told >= ring.n_nodes; });
+    if (ring.n_nodes == 0 || first == found.end()) continue;
+    int most = 0;
+    for (const auto& [i, diameters] : found) most = std::max(most, diameters.told);
+    const auto& [i, diameters] = *first;
+    throw Error(fmt::format(
+        "ring \"{}\" has {} nodes, on which mode {} ({:.1f} Hz) of {} nodal diameters looks like "
+        "{}: "
+        "n diameters need 2 n + 2 nodes, the {} of the modes kept {}; give the ring {} nodes or "
+        "more, keep fewer modes in [body], or choose modes with use_modes",
+        ring.name, ring.n_nodes, i + 1, body.omega[i] / (2.0 * pi), diameters.told,
+        diameters.told == diameters.seen ? std::string("its partner")
+                                         : fmt::format("one of {}", diameters.seen),
+        most, 2 * most + 2, 2 * most + 2));
+  }
+}
 
 double range_of(const ModalBody& body)
 {

@@ -5,13 +5,14 @@ Usage: every_body.py PROGRAM_DIR
 """
 
 import json
+import re
 import sys
 import tempfile
 from pathlib import Path
 
 from pair_between_planes import critical_speeds
 from report import content_of
-from running import changed, run
+from running import changed, run, start
 
 DATA = Path(__file__).parents[1] / "data"
 HAT = Path(__file__).parents[2] / "examples/hat_disc"
@@ -157,7 +158,66 @@ def check_bolts(programs):
     assert len(pages[0]["statistics"]["rms_over_angle"]) == 24, pages[0]["statistics"]
 
 
+FEW_NODES = """
+name = "few"
+[mesh]
+generator = "annulus"
+inner_radius = 0.04
+outer_radius = 0.13
+element_size = 0.016
+rings = [{ name = "track", radius = 0.105, nodes = 5 }]
+[material.iron]
+young = 1.2e11
+poisson = 0.27
+density = 7200.0
+[[section]]
+group = "disc"
+type = "shell"
+material = "iron"
+thickness = 0.012
+[[coupling]]
+type = "rigid"
+name = "hub"
+group = "inner_edge"
+[interface]
+nodes = ["track", "hub"]
+[reduce]
+method = "mixed-interface"
+modes = 60
+[body]
+fixed = ["hub"]
+keep = { up_to_Hz = 8500.0 }
+[squeal]
+ring = "track"
+thickness = 0.012
+speeds = { from_rad_s = 2.0, to_rad_s = 60.0, count = 6 }
+friction = 0.45
+contact = "unilateral"
+pads = [{ angle_deg = 10.0, stiffness = 5e6, damping = 0.0, preload = 1500.0 }]
+analyses = ["eigenvalues", "critical-speed"]
+"""
+
+
+def check_few_nodes(programs):
+    """A ring whose nodes cannot tell the diameters of the modes is refused, with a number of nodes that suffices."""
+    with tempfile.TemporaryDirectory() as name:
+        file = Path(name) / "scene.toml"
+        file.write_text(FEW_NODES)
+        run(programs / "chladni", "run", file, "--output", name)
+        refused = start(programs / "squeal", "run", file, "--output", name)
+        assert refused.returncode == 1 and "5 nodes" in refused.stderr, refused.stderr
+        enough = int(re.search(r"give the ring (\d+) nodes", refused.stderr)[1])
+    print("ring of 5 nodes: refused,", enough, "suffice")
+    assert 12 <= enough <= 24, enough
+    for nodes in (enough, 24, 36):
+        found, _ = squeal(programs, changed(FEW_NODES, ("nodes = 5 ", f"nodes = {nodes} ")))
+        speed = found["critical_speed_rad_s"]
+        print("ring of", nodes, "nodes: critical speed", speed, "rad/s")
+        assert abs(speed / 6.683 - 1) < 5e-3, speed  # meshes differ with the ring
+
+
 if __name__ == "__main__":
+    check_few_nodes(Path(sys.argv[1]))
     check_symmetric(Path(sys.argv[1]))
     check_contact_planes(Path(sys.argv[1]))
     check_others(Path(sys.argv[1]))

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
+#include "squeal/brake/mode_parts.hpp"
 #include "squeal/brake/ring_shapes.hpp"
 
 namespace chladni::squeal {
@@ -161,6 +163,72 @@ TEST(Disc, RefusesAHeldRingAndAFreeBody)
   free = three_pairs();
   free.kinds[0] = mbs_export::ModeKind::rigid;
   EXPECT_NE(complaint(free, {}).find("mode 1 is a rigid-body motion"), std::string::npos);
+}
+
+/// The body with n of the 60 nodes of its ring.
+mbs_export::ModalBody with_nodes(mbs_export::ModalBody body, Eigen::Index n)
+{
+  mbs_export::ContactRing& ring = body.rings[0];
+  const auto chosen = Eigen::seqN(0, n, 60 / n);
+  ring.angles = Eigen::VectorXd(ring.angles(chosen));
+  for (Eigen::MatrixXd* shapes : {&ring.W, &ring.W_r, &ring.W_t})
+    *shapes = Eigen::MatrixXd((*shapes)(chosen, every));
+  return body;
+}
+
+std::string alias_in(const mbs_export::ModalBody& body, const ModeChoice& modes = {})
+{
+  try {
+    refuse_aliases(disc_on_ring(body, "track", modes), body);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Of a plate that shears: its slopes are three quarters of those of its displacements.
+PlatePair shearing_pair(int n, double f_Hz)
+{
+  return {n, f_Hz, 1.5, 0.6, 11.0, 0.75 * n * 0.6 / ring_radius};
+}
+
+TEST(Aliases, AreRefusedWithTheNumberOfNodesThatSuffices)
+{
+  const auto body = analytic_body(
+      {kirchhoff_2(), kirchhoff_3(), kirchhoff_4(), shearing_pair(7, 6e3), shearing_pair(8, 7e3)});
+  for (const Eigen::Index n : {5, 6, 10, 12, 15}) {
+    const std::string text = alias_in(with_nodes(body, n));
+    for (const char* word : {"ring \"track\"", "the 8 of the modes kept 18", "18 nodes or more"})
+      EXPECT_NE(text.find(word), std::string::npos) << n << ": " << text;
+  }
+  EXPECT_EQ(alias_in(with_nodes(body, 20)), "");
+  EXPECT_EQ(alias_in(body), "");
+}
+
+TEST(Aliases, OfModesThatTakeNoPartDoNotMatter)
+{
+  auto body = analytic_body({kirchhoff_2(), kirchhoff_3(), shearing_pair(8, 7e3)});
+  EXPECT_NE(alias_in(with_nodes(body, 10)), "");
+  EXPECT_EQ(alias_in(with_nodes(body, 10), {.nodal_diameters = 3}), "");
+  body.kinds[4] = body.kinds[5] = mbs_export::ModeKind::interface;
+  EXPECT_EQ(alias_in(with_nodes(body, 10)), "");
+}
+
+TEST(Aliases, AreNamedWithTheDiametersThatTheyShow)
+{
+  const auto body = with_nodes(analytic_body({kirchhoff_2(), kirchhoff_3()}), 5);
+  const std::string text = alias_in(body);
+  EXPECT_NE(text.find("mode 3 (1749.7 Hz) of 3 nodal diameters looks like one of 2"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("8 nodes or more"), std::string::npos) << text;
+}
+
+TEST(Aliases, AreNoneWhereANodeDoesNotRotate)
+{
+  auto body = analytic_body({kirchhoff_2(), kirchhoff_4()});
+  body.rings[0].W_t.rightCols(2).setZero();  // nothing tells 4 diameters from others
+  EXPECT_EQ(alias_in(with_nodes(body, 10)), "");
 }
 
 }  // namespace
