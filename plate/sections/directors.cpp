@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <span>
+#include <unordered_set>
 #include <utility>
 
 #include "common/error.hpp"
@@ -69,19 +70,30 @@ void check_normals(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int 
 /// The cut edges of a sector are one: its nodes stand for both, seen from the low edge.
 struct CutEdges {
   std::unordered_map<int, int> low_of;   ///< of the nodes of the high edge
+  std::unordered_set<int> low;
   Matrix3d turn = Matrix3d::Identity();  ///< row vectors from low to high
 
   explicit CutEdges(const mesh::Sectors& sectors)
   {
     const double angle = 2.0 * std::numbers::pi / sectors.count;
     turn = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).matrix().transpose();
-    for (const auto& [low, high] : sectors.pairs) low_of.emplace(high, low);
+    for (const auto& [at_low, at_high] : sectors.pairs) {
+      low_of.emplace(at_high, at_low);
+      low.insert(at_low);
+    }
   }
   /// The node that stands for this one.
   int place(int node) const
   {
     const auto found = low_of.find(node);
     return found == low_of.end() ? node : found->second;
+  }
+  /// The name of a neighbour of a node: both sides of the cut give those along it the same, and
+  /// those across the sector, which lie in different ones, names of their own.
+  int neighbour(int node, int next) const
+  {
+    if (!low_of.contains(node)) return next;
+    return low.contains(next) ? -2 - next : place(next);
   }
   RowVector3d from_place(int node, const RowVector3d& v) const
   {
@@ -140,9 +152,10 @@ Face seen_from_low(Face face, const CutEdges& cut)
   for (mesh::EdgeAtNode& edge : face.at.edges) {
     turn(edge.along);
     turn(edge.inward);
-    edge.next = cut.place(edge.next);
-    if (edge.other >= 0) edge.other = cut.place(edge.other);
-    if (edge.other < 0 || edge.next < edge.other) continue;
+    edge.next = cut.neighbour(face.node, edge.next);
+    if (edge.other < 0) continue;  // at an end of the edge
+    edge.other = cut.neighbour(face.node, edge.other);
+    if (edge.next < edge.other) continue;
     std::swap(edge.next, edge.other);
     edge.along = vector(-row(edge.along));
   }

@@ -143,19 +143,29 @@ TEST_P(ElementAtFolds, MeetsItsNeighbourInOneDirectorBelowTheLimitAlone)
 INSTANTIATE_TEST_SUITE_P(All, ElementAtFolds, ::testing::ValuesIn(elements_under_test()),
                          element_name);
 
-/// The part of a prism of twelve sides from the middle of a side to that of the next, about z.
-mesh::Mesh sector_of_prism(int order)
+Vector3d radial(double angle)
+{
+  return {std::cos(angle), std::sin(angle), 0.0};
+}
+
+/// A twelfth of a prism of twelve sides about z, from one of these points to the next.
+enum class From { middle_of_a_side, fold };
+mesh::Mesh sector_of_prism(int order, From from)
 {
   const double r = std::cos(15.0 * degree);
-  const Vector3d low(r, 0.0, 0.0), edge(r, r * std::tan(15.0 * degree), 0.0),
-      high(r * std::cos(30.0 * degree), r * std::sin(30.0 * degree), 0.0);
   const auto side = [](const Vector3d& a, const Vector3d& b) -> Surface {
-    return
-        [=](double u, double v) { return Vector3d((1.0 - u) * a + u * b + v * Vector3d::UnitZ()); };
+    return [=](double u, double v) {
+      return Vector3d((1.0 - u) * a + u * b + v * Vector3d::UnitZ());
+    };
   };
+  std::vector<Surface> sides{side(radial(0.0), radial(30.0 * degree))};
+  if (from == From::middle_of_a_side) {
+    sides = {side(r * radial(0.0), radial(15.0 * degree)),
+             side(radial(15.0 * degree), r * radial(30.0 * degree))};
+  }
   ShellModel model =
-      shell_model({side(low, edge), side(edge, high)},
-                  {.shape = Shape::quadrilateral, .order = order, .n_u = 1, .n_v = 2}, iron, 0.05);
+      shell_model(sides, {.shape = Shape::quadrilateral, .order = order, .n_u = 1, .n_v = 2}, iron,
+                  0.05);
   model.mesh.sectors.count = 12;
   const Eigen::AngleAxisd turn(30.0 * degree, Vector3d::UnitZ());
   for (int a = 0; a < model.mesh.n_nodes(); ++a)
@@ -167,15 +177,15 @@ mesh::Mesh sector_of_prism(int order)
 
 TEST(Directors, OfASectorAreThoseOfTheWhole)
 {
-  for (const int order : {1, 2, 3}) {
-    const mesh::Mesh sector = sector_of_prism(order);
-    EXPECT_EQ(std::ssize(sector.sectors.pairs), 2 * order + 1);
-    const Directors directors = shell_directors(sector);
-    for (const auto& [low, high] : sector.sectors.pairs) {  // in the middle of a flat side
-      EXPECT_NEAR(std::abs(directors.common(low, 0)), 1.0, 1e-12);
-      EXPECT_NEAR(std::abs(directors.common.row(high).dot(
-                      Vector3d(std::cos(30.0 * degree), std::sin(30.0 * degree), 0.0).transpose())),
-                  1.0, 1e-12);
+  for (const From from : {From::middle_of_a_side, From::fold}) {
+    for (const int order : {1, 2, 3}) {
+      const mesh::Mesh sector = sector_of_prism(order, from);
+      EXPECT_EQ(std::ssize(sector.sectors.pairs), 2 * order + 1);
+      const Directors directors = shell_directors(sector);
+      for (const auto& [low, high] : sector.sectors.pairs) {
+        EXPECT_NEAR(std::abs(directors.common.row(low).dot(radial(0.0))), 1.0, 1e-12);
+        EXPECT_NEAR(std::abs(directors.common.row(high).dot(radial(30.0 * degree))), 1.0, 1e-12);
+      }
     }
   }
 }
