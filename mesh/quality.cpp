@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <span>
@@ -244,9 +245,9 @@ std::vector<SideOfEdge> sides_of_edges(const Mesh& mesh)
   return sides;
 }
 
-/// Calls visit(a, b, fold) for the elements that share an edge.
+/// Calls visit(sides) for each edge.
 template <typename Visit>
-void for_neighbours(const std::vector<SideOfEdge>& sides, const Visit& visit)
+void for_edges(const std::vector<SideOfEdge>& sides, const Visit& visit)
 {
   for (std::size_t first = 0; first < sides.size();) {
     std::size_t last = first + 1;
@@ -254,29 +255,83 @@ void for_neighbours(const std::vector<SideOfEdge>& sides, const Visit& visit)
       return side.node == sides[first].node && side.next == sides[first].next;
     };
     while (last < sides.size() && is_same(sides[last])) ++last;
-    for (std::size_t a = first; a < last; ++a)
-      for (std::size_t b = a + 1; b < last; ++b)
-        visit(sides[a].element, sides[b].element, fold_angle(sides[a].inward, sides[b].inward));
+    visit(std::span(sides).subspan(first, last - first));
     first = last;
   }
 }
 
+/// The parts into which sharp edges divide the surfaces, and whether a part has an edge that no
+/// other element shares.
+class Parts {
+ public:
+  explicit Parts(const Mesh& mesh)
+  {
+    int n = 0;
+    for (const ElementBlock& block : mesh.blocks) {
+      first_.push_back(n);
+      n += block.n_elements();
+    }
+    parent_.resize(std::size_t(n));
+    std::iota(parent_.begin(), parent_.end(), 0);
+    size_.assign(std::size_t(n), 1);
+    is_open_.assign(std::size_t(n), 0);
+  }
+  void open(const ElementOfMesh& of) { is_open_[root(of)] = 1; }
+  void join(const ElementOfMesh& a, const ElementOfMesh& b)
+  {
+    std::size_t to = root(a), from = root(b);
+    if (to == from) return;
+    if (size_[to] < size_[from]) std::swap(to, from);
+    parent_[from] = int(to);
+    size_[to] += size_[from];
+    is_open_[to] = char(is_open_[to] | is_open_[from]);
+  }
+  /// One of a few elements that sharp edges enclose, beside the much larger part of another.
+  bool is_enclosed_beside(const ElementOfMesh& few, const ElementOfMesh& many)
+  {
+    const std::size_t a = root(few), b = root(many);
+    return a != b && is_open_[a] == 0 && 4 * size_[a] < size_[b];
+  }
+
+ private:
+  std::size_t root(const ElementOfMesh& of)
+  {
+    auto at = std::size_t(first_[std::size_t(of.block)] + of.element);
+    while (std::size_t(parent_[at]) != at) {
+      parent_[at] = parent_[std::size_t(parent_[at])];
+      at = std::size_t(parent_[at]);
+    }
+    return at;
+  }
+
+  std::vector<int> first_, parent_, size_;
+  std::vector<char> is_open_;
+};
+
 /// Neighbours that lie on one another.
 std::set<Pair> folded_back(const Mesh& mesh)
 {
+  constexpr double flat = 179.0 * degree, sharp = 150.0 * degree;
   std::set<Pair> found;
-  std::map<ElementOfMesh, std::vector<ElementOfMesh>> sharp;
-  for_neighbours(sides_of_edges(mesh),
-                 [&](const ElementOfMesh& a, const ElementOfMesh& b, double fold) {
-                   if (fold < 160.0 * degree || have_the_same_nodes(mesh, a, b)) return;
-                   sharp[a].push_back(b);
-                   sharp[b].push_back(a);
-                   if (fold > 179.0 * degree) found.insert(ordered(a, b));
-                 });
-  for (const auto& [element, others] : sharp) {
-    if (others.size() < 2) continue;
-    for (const ElementOfMesh& other : others) found.insert(ordered(element, other));
-  }
+  std::vector<Pair> sharp_edges;
+  Parts parts(mesh);
+  for_edges(sides_of_edges(mesh), [&](std::span<const SideOfEdge> sides) {
+    if (sides.size() == 1) parts.open(sides[0].element);
+    for (std::size_t b = 1; b < sides.size(); ++b) {
+      for (std::size_t a = 0; a < b; ++a) {
+        const ElementOfMesh &one = sides[a].element, &other = sides[b].element;
+        const double fold = fold_angle(sides[a].inward, sides[b].inward);
+        if (fold < sharp || have_the_same_nodes(mesh, one, other)) {
+          parts.join(one, other);
+          continue;
+        }
+        sharp_edges.push_back(ordered(one, other));
+        if (fold > flat) found.insert(ordered(one, other));
+      }
+    }
+  });
+  for (const auto& [a, b] : sharp_edges)
+    if (parts.is_enclosed_beside(a, b) || parts.is_enclosed_beside(b, a)) found.insert({a, b});
   return found;
 }
 
@@ -460,7 +515,7 @@ std::vector<Overlap> overlaps(const Mesh& mesh)
     const auto number = [&](const ElementOfMesh& of) {
       return mesh.blocks[std::size_t(of.block)].numbers[std::size_t(of.element)];
     };
-    pairs.push_back({.first = number(a), .second = number(b)});
+    pairs.push_back({.first = std::min(number(a), number(b)), .second = std::max(number(a), number(b))});
   }
   return pairs;
 }
