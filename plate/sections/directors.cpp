@@ -9,7 +9,6 @@
 #include <map>
 #include <numbers>
 #include <span>
-#include <unordered_set>
 #include <utility>
 
 #include "common/error.hpp"
@@ -70,17 +69,13 @@ void check_normals(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int 
 /// The cut edges of a sector are one: its nodes stand for both, seen from the low edge.
 struct CutEdges {
   std::unordered_map<int, int> low_of;   ///< of the nodes of the high edge
-  std::unordered_set<int> low;
   Matrix3d turn = Matrix3d::Identity();  ///< row vectors from low to high
 
   explicit CutEdges(const mesh::Sectors& sectors)
   {
     const double angle = 2.0 * std::numbers::pi / sectors.count;
     turn = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).matrix().transpose();
-    for (const auto& [at_low, at_high] : sectors.pairs) {
-      low_of.emplace(at_high, at_low);
-      low.insert(at_low);
-    }
+    for (const auto& [low, high] : sectors.pairs) low_of.emplace(high, low);
   }
   /// The node that stands for this one.
   int place(int node) const
@@ -88,12 +83,12 @@ struct CutEdges {
     const auto found = low_of.find(node);
     return found == low_of.end() ? node : found->second;
   }
-  /// The name of a neighbour of a node: both sides of the cut give those along it the same, and
-  /// those across the sector, which lie in different ones, names of their own.
+  /// The name of a neighbour of a node: along the cut the same from both sides. Beside it, the high
+  /// edge has neighbours in another sector than the low one.
   int neighbour(int node, int next) const
   {
     if (!low_of.contains(node)) return next;
-    return low.contains(next) ? -2 - next : place(next);
+    return low_of.contains(next) ? place(next) : -2 - next;
   }
   RowVector3d from_place(int node, const RowVector3d& v) const
   {
