@@ -15,6 +15,8 @@ using NodeVectors = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 struct ShellNodes {
   NodeVectors x;  ///< [n x 3] mid-surface, m
   NodeVectors D;  ///< [n x 3] half the thickness times the unit director, m
+  /// [n x 3] the surface over whose area the thickness extends, m; empty: x.
+  NodeVectors surface = {};
 };
 
 /// Mid-surface tangents a_1, a_2, director d and its derivatives d_1, d_2 at points, each [n_points

@@ -64,7 +64,7 @@ MassPoints shell_mass_points(mesh::Shape shape, int order, const ShellNodes& nod
   const auto& [rule, basis] = shell_rule(shape, order);
   const ShellFrame frame = shell_frame(basis, nodes);
   MassPoints points = empty_points(rule.size() * std::ssize(thickness_points), nodes.x.rows());
-  const Eigen::VectorXd weight = density * rule.weight.cwiseProduct(leaning(basis, frame, nodes));
+  const Eigen::VectorXd weight = density * rule.weight.cwiseProduct(leaning(basis, nodes));
   Index p = 0;
   for (const double zeta : thickness_points) {
     const NodeVectors x = nodes.x + zeta * nodes.D;

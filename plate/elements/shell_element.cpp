@@ -84,7 +84,7 @@ MatrixXd mass(const Rule& rule, const ShellNodes& nodes, double density)
   const Index n = nodes.x.rows();
   Eigen::MatrixX3d moment = Eigen::MatrixX3d::Zero(rule.points.size(), 3);
   const Eigen::VectorXd weight =
-      density * rule.points.weight.cwiseProduct(leaning(rule.basis, frame, nodes));
+      density * rule.points.weight.cwiseProduct(leaning(rule.basis, nodes));
   for (const double zeta : thickness_points) {
     for (Index q = 0; q < rule.points.size(); ++q) {
       const double m = weight[q] * volume_element(frame, q, zeta);

@@ -93,12 +93,14 @@ double volume_element(const ShellFrame& frame, Index q, double zeta)
   return g_1.cross(g_2).dot(frame.d.row(q));
 }
 
-Eigen::VectorXd leaning(const Basis& basis, const ShellFrame& frame, const ShellNodes& nodes)
+Eigen::VectorXd leaning(const Basis& basis, const ShellNodes& nodes)
 {
+  const NodeVectors& x = nodes.surface.size() > 0 ? nodes.surface : nodes.x;
+  const NodeVectors a_1 = basis.N_xi * x, a_2 = basis.N_eta * x, d = basis.N * nodes.D;
   Eigen::VectorXd factor = basis.N * nodes.D.rowwise().norm();  // t / 2
   for (Index q = 0; q < factor.size(); ++q) {
-    const Vector3d area = frame.a_1.row(q).cross(frame.a_2.row(q));
-    factor[q] *= area.norm() / area.dot(frame.d.row(q).transpose());
+    const Eigen::RowVector3d area = a_1.row(q).cross(a_2.row(q));
+    factor[q] *= area.norm() / area.dot(d.row(q));
   }
   return factor;
 }

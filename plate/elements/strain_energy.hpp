@@ -20,9 +20,10 @@ Eigen::Matrix<double, Eigen::Dynamic, 5> elasticity_root(const Material& materia
 double volume_element(const ShellFrame& frame, Eigen::Index q, double zeta);
 
 /// [n_points] What the mass per volume element is multiplied by where directors lean away from the
-/// normal, at folds and between the nodes of curved elements: |a_1 x a_2| t / 2 over a_1 x a_2 . d.
-/// The mass is then that of the thickness t along the director times the area.
-Eigen::VectorXd leaning(const Basis& basis, const ShellFrame& frame, const ShellNodes& nodes);
+/// normal, at folds and between the nodes of curved elements: |a_1 x a_2| t / 2 over a_1 x a_2 . d
+/// with the tangents of ShellNodes::surface. The mass is then that of the thickness t along the
+/// director times the area.
+Eigen::VectorXd leaning(const Basis& basis, const ShellNodes& nodes);
 
 /// K = sum over points of B^T C B det(g) w, with B the Cartesian strains in a frame whose third
 /// axis is the director.

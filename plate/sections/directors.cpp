@@ -374,7 +374,7 @@ NodeVectors unit_directors(const mesh::Mesh& mesh, const mesh::ElementBlock& blo
 ShellNodes with_thickness(const mesh::Mesh& mesh, std::span<const int> nodes, NodeVectors d,
                           const ShellSection& section)
 {
-  ShellNodes shell{.x = NodeVectors(d.rows(), 3), .D = std::move(d)};
+  ShellNodes shell{.x = NodeVectors(d.rows(), 3), .D = std::move(d), .surface = {}};
   for (Index i = 0; i < shell.D.rows(); ++i) {
     const auto& x = mesh.positions[nodes[i]];
     shell.x.row(i) = RowVector3d(x.data()) + value_at(section.offset, x) * shell.D.row(i);
@@ -405,9 +405,11 @@ ShellNodes shell_nodes(const mesh::Mesh& mesh, const mesh::ElementBlock& block, 
   const std::span<const int> nodes = block.element_nodes(element);
   const NodeVectors normals = element_normals(mesh, block, element);
   const NodeVectors d = unit_directors(mesh, block, element, directors, normals);
+  const bool is_offset = section.offset != Profile(0.0);
   ShellNodes shell = with_thickness(mesh, nodes, d, section);
   if (!(d - normals).isZero(1e-6) && faces_cross(block, shell))
     shell = with_thickness(mesh, nodes, normals, section);
+  if (is_offset) shell.surface = element_positions(mesh, block, element);
   return shell;
 }
 
