@@ -515,7 +515,8 @@ std::vector<Overlap> overlaps(const Mesh& mesh)
     const auto number = [&](const ElementOfMesh& of) {
       return mesh.blocks[std::size_t(of.block)].numbers[std::size_t(of.element)];
     };
-    pairs.push_back({.first = std::min(number(a), number(b)), .second = std::max(number(a), number(b))});
+    pairs.push_back(
+        {.first = std::min(number(a), number(b)), .second = std::max(number(a), number(b))});
   }
   return pairs;
 }

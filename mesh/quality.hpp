@@ -37,8 +37,8 @@ struct Overlap {
 /// The pairs of elements that lie on one another, each once. These are neighbours between which the
 /// surface turns back by more than 179 degrees at their edge, as where one of them is turned over;
 /// by more than 150 degrees at all edges of a few elements amid many others, as on a curved
-/// surface; and elements of a flat group of which one has a point of the other inside. Elements with
-/// the same nodes do not count.
+/// surface; and elements of a flat group of which one has a point of the other inside. Elements
+/// with the same nodes do not count.
 std::vector<Overlap> overlaps(const Mesh& mesh);
 
 /// What is wrong with the elements of a mesh, with the numbers of the first ten; empty if all can

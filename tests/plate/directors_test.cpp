@@ -154,18 +154,16 @@ mesh::Mesh sector_of_prism(int order, From from)
 {
   const double r = std::cos(15.0 * degree);
   const auto side = [](const Vector3d& a, const Vector3d& b) -> Surface {
-    return [=](double u, double v) {
-      return Vector3d((1.0 - u) * a + u * b + v * Vector3d::UnitZ());
-    };
+    return
+        [=](double u, double v) { return Vector3d((1.0 - u) * a + u * b + v * Vector3d::UnitZ()); };
   };
   std::vector<Surface> sides{side(radial(0.0), radial(30.0 * degree))};
   if (from == From::middle_of_a_side) {
     sides = {side(r * radial(0.0), radial(15.0 * degree)),
              side(radial(15.0 * degree), r * radial(30.0 * degree))};
   }
-  ShellModel model =
-      shell_model(sides, {.shape = Shape::quadrilateral, .order = order, .n_u = 1, .n_v = 2}, iron,
-                  0.05);
+  ShellModel model = shell_model(
+      sides, {.shape = Shape::quadrilateral, .order = order, .n_u = 1, .n_v = 2}, iron, 0.05);
   model.mesh.sectors.count = 12;
   const Eigen::AngleAxisd turn(30.0 * degree, Vector3d::UnitZ());
   for (int a = 0; a < model.mesh.n_nodes(); ++a)
