@@ -181,7 +181,7 @@ TEST(MassMoments, OfTwoPlatesInAFoldAreThoseOfBothPlates)
   for (const double fold : {0.1, 30.0 * std::numbers::pi / 180.0, 0.69, 1.2}) {
     for (const int order : {1, 3}) {
       mesh::Mesh mesh =
-          testing::rectangle({.a = 0.2, .b = 0.1, .n_x = 2, .n_y = 1, .order = order});
+          testing::rectangle({.a = 0.2, .b = 0.1, .n_x = 4, .n_y = 3, .order = order});
       for (std::array<double, 3>& x : mesh.positions) {
         const double beyond = std::max(0.0, x[0] - 0.1);
         x = {x[0] - beyond + beyond * std::cos(fold), x[1], beyond * std::sin(fold)};
