@@ -77,7 +77,10 @@ constexpr auto harmless = std::to_array<long>({
 
 }  // namespace
 
-std::span<const long> harmless_calls() { return harmless; }
+std::span<const long> harmless_calls()
+{
+  return harmless;
+}
 
 std::span<const long> starting_calls()
 {
