@@ -5,14 +5,19 @@
 #include <slepc/private/epsimpl.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "common/petsc_compat.hpp"
 #include "linear/lanczos/block_iteration.hpp"
 #include "plugin/chladni_cms.h"
 #include "plugin/eps_operator.hpp"
 #include "plugin/eps_order.hpp"
+#include "plugin/eps_refusals.hpp"
 #include "plugin/eps_residuals.hpp"
 #include "plugin/eps_sequences.hpp"
+#include "plugin/eps_slices.hpp"
 #include "plugin/guard.hpp"
 
 using namespace chladni;  // NOLINT(google-build-using-namespace)
@@ -23,8 +28,11 @@ namespace {
 constexpr const char* type_name = "blocklanczos";
 
 struct Options {
-  PetscInt block_size;  ///< as asked for; 0: what the subspace has room for
-  PetscReal keep;       ///< share of the surplus Ritz vectors that a restart keeps
+  PetscInt block_size;      ///< as asked for; 0: what the subspace has room for
+  PetscReal keep;           ///< share of the surplus Ritz vectors that a restart keeps
+  PetscReal strictness;     ///< share of the tolerance that the recurrence must meet
+  bool has_eigenvalues;     ///< what `solve` leaves needs no transformation back
+  Certificate certificate;  ///< of the last interval
 };
 
 Options* options_of(EPS eps)
@@ -40,38 +48,61 @@ PetscInt block_size(EPS eps)
   PetscInt b = options_of(eps)->block_size;
   if (b == 0) {
     b = most;
-    if (eps->ncv != petsc::automatic && eps->ncv < eps->n)
+    if (eps->which != EPS_ALL && eps->ncv != petsc::automatic && eps->ncv < eps->n)
       b = std::clamp<PetscInt>((eps->ncv - eps->nev) / blocks_beyond, 1, most);
   }
   return std::min(b, eps->n);
 }
 
-PetscErrorCode check_problem(EPS eps)
+/// The basis of the EPS holds the eigenvectors, and first the initial space, whose number is
+/// negative until SLEPc copies it. The iteration has a basis of its own.
+PetscErrorCode allocate(EPS eps)
 {
-  PetscBool known = PETSC_FALSE;
+  PetscBool is_cayley = PETSC_FALSE, is_injective = PETSC_TRUE;
+  Mat B = nullptr;
   PetscFunctionBegin;
-  EPSCheckHermitianDefinite(eps);
-  EPSCheckUnsupported(eps, EPS_FEATURE_BALANCE | EPS_FEATURE_ARBITRARY | EPS_FEATURE_REGION |
-                               EPS_FEATURE_EXTRACTION | EPS_FEATURE_TWOSIDED);
-  PetscCall(PetscObjectTypeCompareAny((PetscObject)eps->st, &known, STSINVERT, STSHIFT, ""));
-  PetscCheck(known, PetscObjectComm((PetscObject)eps), PETSC_ERR_SUP,
-             "blocklanczos needs -st_type sinvert (inner eigenvalues) or shift (outer ones)");
-  PetscCheck(eps->nds == 0, PetscObjectComm((PetscObject)eps), PETSC_ERR_SUP,
-             "blocklanczos takes no deflation space; use -eps_type krylovschur");
-  PetscCheck(!eps->trueres, PetscObjectComm((PetscObject)eps), PETSC_ERR_SUP,
-             "blocklanczos converges by its own residuals; leave -eps_true_residual out and see "
-             "-eps_error_relative");
+  PetscCall(EPSAllocateSolution(eps, 0));
+  PetscCall(EPS_SetInnerProduct(eps));
+  PetscCall(PetscObjectTypeCompare((PetscObject)eps->st, STCAYLEY, &is_cayley));
+  if (is_cayley && eps->isgeneralized) {  // SLEPc's A + nu B may be indefinite
+    PetscCall(EPSGetOperators(eps, nullptr, &B));
+    PetscCall(BVSetMatrix(eps->V, B, PETSC_FALSE));
+  }
+  // With a deflation space in it, it cannot change its size any more.
+  if (eps->nds == 0)
+    PetscCall(BVResize(eps->V, std::max<PetscInt>({1, eps->nev, -eps->nini}), PETSC_FALSE));
+  // Where a shell transformation has no inverse, SLEPc computes Rayleigh quotients with it.
+  PetscCall(DSSetType(eps->ds, DSHEP));
+  PetscCall(STIsInjective(eps->st, &is_injective));
+  if (!is_injective) PetscCall(DSAllocate(eps->ds, eps->ncv + 1));
+  PetscFunctionReturn(0);
+}
+
+/// Of an interval: how many pairs there are is known after the counts.
+PetscErrorCode set_up_interval(EPS eps)
+{
+  PetscFunctionBegin;
+  eps->nev = eps->ncv = eps->mpd = 1;
+  if (eps->max_it == petsc::automatic) eps->max_it = 1000;
+  PetscCall(STSetTransform(eps->st, PETSC_FALSE));  // no factor of its own
+  PetscCall(allocate(eps));
+  PetscCall(set_up_sort(eps));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode set_up(EPS eps)
 {
-  PetscBool sinvert = PETSC_FALSE;
+  PetscBool inverse = PETSC_FALSE;
   const PetscInt b = block_size(eps);
   PetscFunctionBegin;
-  PetscCall(check_problem(eps));
-  PetscCall(PetscObjectTypeCompare((PetscObject)eps->st, STSINVERT, &sinvert));
-  if (!eps->which) eps->which = sinvert ? EPS_TARGET_MAGNITUDE : EPS_LARGEST_MAGNITUDE;
+  PetscCall(guarded((PetscObject)eps, __func__, [eps] { refuse_what_is_not_there(eps); }));
+  options_of(eps)->certificate = {};
+  if (eps->which == EPS_ALL) {
+    PetscCall(set_up_interval(eps));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(PetscObjectTypeCompareAny((PetscObject)eps->st, &inverse, STSINVERT, STCAYLEY, ""));
+  if (!eps->which) eps->which = inverse ? EPS_TARGET_MAGNITUDE : EPS_LARGEST_MAGNITUDE;
   if (eps->ncv == petsc::automatic) eps->ncv = std::min(eps->n, 2 * eps->nev + 16 * b);
   PetscCheck(eps->ncv >= std::min(eps->n, eps->nev + 2 * b), PetscObjectComm((PetscObject)eps),
              PETSC_ERR_USER_INPUT,
@@ -80,12 +111,10 @@ PetscErrorCode set_up(EPS eps)
              ", or a smaller -eps_blocklanczos_blocksize",
              eps->ncv, std::min(eps->n, eps->nev + 2 * b));
   if (eps->mpd == petsc::automatic) eps->mpd = eps->ncv;
-  if (eps->max_it == petsc::automatic) eps->max_it = std::max<PetscInt>(100, 2 * eps->n / b);
-  PetscCall(EPSAllocateSolution(eps, 0));
-  PetscCall(EPS_SetInnerProduct(eps));
-  // The iteration has a basis of its own; this one holds the eigenvectors, and first the initial
-  // space, whose number is negative until SLEPc copies it.
-  PetscCall(BVResize(eps->V, std::max(eps->nev, -eps->nini), PETSC_FALSE));
+  // As many vectors as 100 restarts of a method without blocks, which keeps half of its basis.
+  if (eps->max_it == petsc::automatic)
+    eps->max_it = std::max<PetscInt>({100, 2 * eps->n / b, 50 * eps->ncv / b});
+  PetscCall(allocate(eps));
   PetscCall(set_up_sort(eps));
   PetscFunctionReturn(0);
 }
@@ -104,7 +133,7 @@ PetscInt publish(EPS eps, const linear::BlockIteration& iteration)
     petsc::check((*eps->converged)(eps, value, 0.0, iteration.residual(i), &eps->errest[i],
                                    eps->convergedctx));
     if (iteration.residual(i) == 0.0) eps->errest[i] = 0.0;  // relative to zero, too
-    all_so_far = all_so_far && eps->errest[i] < eps->tol;
+    all_so_far = all_so_far && eps->errest[i] < options_of(eps)->strictness * eps->tol;
     if (all_so_far) ++n_converged;
   }
   return n_converged;
@@ -119,12 +148,20 @@ PetscInt n_without_gaps(const linear::BlockIteration& iteration, PetscInt n, Pet
   return n;
 }
 
+/// Keeps the wanted Ritz vectors and some of the others.
+void restart(EPS eps, linear::BlockIteration& iteration)
+{
+  const auto surplus = static_cast<double>(iteration.n_vectors() - eps->nev);
+  const auto n_kept = eps->nev + static_cast<PetscInt>(options_of(eps)->keep * surplus);
+  iteration.restart(std::min(n_kept, iteration.n_vectors() - 1));
+}
+
 /// Block steps until enough pairs have converged, nothing is left, or patience ends.
 void iterate(EPS eps, linear::BlockIteration& iteration, const linear::BlockOperator& op)
 {
   const auto before = [eps](double a, double b) { return comes_before(eps, a, b); };
-  start(eps, iteration, op);
   while (eps->reason == EPS_CONVERGED_ITERATING) {
+    if (iteration.is_full()) restart(eps, iteration);
     iteration.step(op);
     ++eps->its;
     iteration.order_ritz_values(before);
@@ -141,39 +178,103 @@ void iterate(EPS eps, linear::BlockIteration& iteration, const linear::BlockOper
     if (eps->reason != EPS_CONVERGED_ITERATING) return;
     if (copies == linear::Copies::may_lack) begin_anew(eps, iteration, n_first, op);
     if (iteration.is_exhausted()) eps->reason = EPS_DIVERGED_BREAKDOWN;  // fewer pairs exist
-    if (!iteration.is_full()) continue;
-    const auto surplus = static_cast<double>(iteration.n_vectors() - eps->nev);
-    const auto n_kept = eps->nev + static_cast<PetscInt>(options_of(eps)->keep * surplus);
-    iteration.restart(std::min(n_kept, iteration.n_vectors() - 1));
   }
 }
 
-/// Keeps the pairs that satisfy A x = lambda B x; where the factor of A - sigma B is unusable, as
-/// with sigma on an eigenvalue, the recurrence does not know that they do not.
+/// Whether the residuals that EPSErrorView prints must be below the tolerance: the user asks for
+/// it, or a solver inside iterates, so that the recurrence is that of another operator.
+bool is_told_by_true_residuals(EPS eps)
+{
+  return eps->trueres == PETSC_TRUE || !is_direct(eps);
+}
+
+std::vector<Eigenvalue> eigenvalues(EPS eps)
+{
+  std::vector<Eigenvalue> values;
+  PetscScalar shift = 0.0;
+  petsc::check(STGetShift(eps->st, &shift));
+  for (PetscInt i = 0; i < eps->nconv; ++i) {
+    const double value = eps->eigr[i];
+    values.push_back(options_of(eps)->has_eigenvalues
+                         ? Eigenvalue{.lambda = value, .distance = std::abs(value - shift)}
+                         : eigenvalue(eps, value));
+  }
+  return values;
+}
+
+/// The largest printed error over what is allowed, where more than round-off is left.
+double excess(EPS eps, const std::vector<PairErrors>& errors)
+{
+  double largest = 0.0;
+  for (const PairErrors& pair : errors) {
+    const double least = eps->trueres ? 0.0 : pair.round_off;
+    largest = std::max(largest, pair.printed / std::max(eps->tol, least));
+  }
+  return largest;
+}
+
+/// Pairs with true residuals below the tolerance, as far as some more applications of the inexact
+/// operator bring it.
+void refine(EPS eps, const linear::BlockOperator& op, petsc::Matrix& X)
+{
+  constexpr int most = 6;
+  constexpr double gain = 0.7;
+  std::vector<PairErrors> errors = pair_errors(eps, X, eigenvalues(eps));
+  for (int pass = 0; pass < most && excess(eps, errors) > 1.0; ++pass) {
+    const std::vector<PetscScalar> before(eps->eigr, eps->eigr + eps->nconv);
+    const bool had_eigenvalues = options_of(eps)->has_eigenvalues;
+    Pairs pairs = refined(eps, X, op);
+    if (std::cmp_less(pairs.lambda.size(), eps->nconv)) break;
+    std::ranges::copy(pairs.lambda, eps->eigr);
+    options_of(eps)->has_eigenvalues = true;
+    std::vector<PairErrors> after = pair_errors(eps, pairs.X, eigenvalues(eps));
+    if (excess(eps, after) > gain * excess(eps, errors)) {
+      std::ranges::copy(before, eps->eigr);
+      options_of(eps)->has_eigenvalues = had_eigenvalues;
+      break;
+    }
+    X = std::move(pairs.X);
+    errors = std::move(after);
+  }
+  for (std::size_t i = 0; i < errors.size(); ++i) eps->errest[i] = errors[i].printed;
+}
+
+/// Whether pair i may be told: the recurrence does not know of the errors of its operator.
+bool is_true(EPS eps, PetscInt i, const PairErrors& errors)
+{
+  if (!(errors.scaled <= std::max(1e-4, 100.0 * eps->tol))) return false;
+  if (!is_told_by_true_residuals(eps)) return true;
+  constexpr double as_slepc_says = 5.0;  // EPSErrorView: "higher than the tolerance"
+  return eps->errest[i] <=
+         (eps->trueres ? eps->tol : std::max(as_slepc_says * eps->tol, errors.round_off));
+}
+
+/// Keeps the pairs that satisfy A x = lambda B x. Where the factor of A - sigma B is unusable, as
+/// with sigma on an eigenvalue, or a solver inside too loose, there may be none.
 void drop_false_pairs(EPS eps, Mat X)
 {
-  const PetscInt n_true = n_true_pairs(eps, X);
+  const std::vector<PairErrors> errors = pair_errors(eps, X, eigenvalues(eps));
+  PetscInt n_true = 0;
+  while (n_true < eps->nconv && is_true(eps, n_true, errors[std::size_t(n_true)])) {
+    const double scaled = errors[std::size_t(n_true)].scaled;
+    if (scaled > 100.0 * eps->tol) eps->errest[n_true] = std::max(eps->errest[n_true], scaled);
+    ++n_true;
+  }
   if (n_true == eps->nconv) return;
   petsc::check(PetscInfo(eps,
                          "%" PetscInt_FMT " of %" PetscInt_FMT
                          " pairs satisfy A x = lambda B x: the operator is not accurate; is the "
-                         "target an eigenvalue?\n",
+                         "target an eigenvalue, or the tolerance of the solver inside "
+                         "(-st_ksp_rtol) too loose?\n",
                          n_true, eps->nconv));
   eps->nconv = n_true;
   if (n_true < eps->nev) eps->reason = EPS_DIVERGED_BREAKDOWN;
 }
 
-void store_vectors(EPS eps, const linear::BlockIteration& iteration,
-                   const linear::BlockOperator& op)
+/// Copies the columns of X into the basis of the EPS.
+void store_columns(EPS eps, Mat X)
 {
-  if (eps->nconv == 0) return;
-  // SLEPc asks for it with a B alone, whose null space is to be left; of a standard problem it
-  // makes the residual of A x = lambda x as small as that of the inverse.
-  const bool purifies = inverts(eps) && (eps->purify || !eps->isgeneralized);
-  const petsc::Matrix X =
-      purifies ? iteration.purified_vectors(0, eps->nconv, op) : iteration.ritz_vectors(eps->nconv);
-  drop_false_pairs(eps, X);
-  petsc::check(BVResize(eps->V, std::max<PetscInt>(eps->nconv, 1), PETSC_FALSE));
+  if (eps->nds == 0) petsc::check(BVResize(eps->V, std::max<PetscInt>(eps->nconv, 1), PETSC_FALSE));
   for (PetscInt i = 0; i < eps->nconv; ++i) {
     Vec x = nullptr, v = nullptr;
     petsc::check(MatDenseGetColumnVecRead(X, i, &x));
@@ -184,24 +285,102 @@ void store_vectors(EPS eps, const linear::BlockIteration& iteration,
   }
 }
 
+void store_vectors(EPS eps, const linear::BlockIteration& iteration,
+                   const linear::BlockOperator& op)
+{
+  PetscBool is_injective = PETSC_TRUE;
+  petsc::check(STIsInjective(eps->st, &is_injective));
+  if (!is_injective) {
+    eps->nconv = std::min(eps->nconv, eps->nev);  // SLEPc sorts them by Rayleigh quotients
+    petsc::check(DSSetDimensions(eps->ds, eps->nconv, 0, 0));
+    petsc::check(DSSetState(eps->ds, DS_STATE_RAW));
+  }
+  if (eps->nconv == 0) return;
+  // SLEPc asks for it with a B alone, whose null space is to be left; of a standard problem it
+  // makes the residual of A x = lambda x as small as that of the inverse.
+  const bool purifies = inverts(eps) && (eps->purify || !eps->isgeneralized);
+  petsc::Matrix X =
+      purifies ? iteration.purified_vectors(0, eps->nconv, op) : iteration.ritz_vectors(eps->nconv);
+  if (is_injective) {
+    if (is_told_by_true_residuals(eps) && has_own_inner_product(eps)) refine(eps, op, X);
+    drop_false_pairs(eps, X);
+  }
+  store_columns(eps, X);
+}
+
+/// All pairs of the interval of EPSSetInterval.
+void solve_all(EPS eps)
+{
+  const IntervalPairs all = pairs_of_interval(eps, block_size(eps));
+  options_of(eps)->certificate = all.certificate;
+  options_of(eps)->has_eigenvalues = true;
+  eps->reason = all.is_complete ? EPS_CONVERGED_TOL : EPS_DIVERGED_ITS;
+  eps->nconv = eps->nev = static_cast<PetscInt>(all.pairs.size());
+  eps->ncv = eps->mpd = std::max<PetscInt>(eps->nconv, 1);
+  petsc::check(EPSAllocateSolution(eps, 0));
+  for (PetscInt i = 0; i < eps->nconv; ++i) {
+    const IntervalPair& pair = all.pairs[std::size_t(i)];
+    eps->eigr[i] = pair.lambda;
+    eps->eigi[i] = 0.0;
+    eps->errest[i] = pair.error;
+    eps->perm[i] = i;
+    petsc::check(BVInsertVec(eps->V, i, pair.x));
+  }
+}
+
+/// Where true residuals decide, the recurrence is asked for more than they need, the more the less
+/// they follow it.
+void solve_some(EPS eps)
+{
+  constexpr double strictest = 1e-4;
+  const PetscInt b = block_size(eps);
+  const petsc::Matrix B = inner_product_matrix(eps), C = deflation_space(eps);
+  linear::BlockIteration iteration(B, b, eps->ncv + b);
+  const linear::BlockOperator op = operator_of(eps, C);
+  if (C != nullptr) {
+    petsc::check(PetscObjectReference((PetscObject)(Mat)C));
+    iteration.exclude(petsc::Matrix(static_cast<Mat>(C)));
+  }
+  Options& options = *options_of(eps);
+  options.strictness = 1.0;
+  start(eps, iteration, op);
+  for (;;) {
+    options.has_eigenvalues = false;
+    iterate(eps, iteration, op);
+    const EPSConvergedReason by_recurrence = eps->reason;
+    store_vectors(eps, iteration, op);
+    options.strictness *= 0.1;
+    if (by_recurrence <= 0 || eps->reason > 0 || iteration.is_exhausted() ||
+        options.strictness < strictest || !is_told_by_true_residuals(eps))
+      return;
+    eps->reason = EPS_CONVERGED_ITERATING;
+  }
+}
+
 PetscErrorCode solve(EPS eps)
 {
   PetscFunctionBegin;
-  PetscCall(guarded((PetscObject)eps, __func__, [eps] {
-    const PetscInt b = block_size(eps);
-    const petsc::Matrix B = inner_product_matrix(eps);
-    linear::BlockIteration iteration(B, b, eps->ncv + b);
-    const linear::BlockOperator op = operator_of(eps);
-    iterate(eps, iteration, op);
-    store_vectors(eps, iteration, op);
-  }));
+  PetscCall(guarded((PetscObject)eps, __func__,
+                    [eps] { eps->which == EPS_ALL ? solve_all(eps) : solve_some(eps); }));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode back_transform(EPS eps)
 {
   PetscFunctionBegin;
-  PetscCall(STBackTransform(eps->st, eps->nconv, eps->eigr, eps->eigi));
+  if (!options_of(eps)->has_eigenvalues)
+    PetscCall(STBackTransform(eps->st, eps->nconv, eps->eigr, eps->eigi));
+  PetscFunctionReturn(0);
+}
+
+/// With -help, as docs/how-to/plugin.md has it.
+PetscErrorCode print_refusals(EPS eps)
+{
+  const MPI_Comm comm = PetscObjectComm((PetscObject)eps);
+  PetscFunctionBegin;
+  PetscCall((*PetscHelpPrintf)(comm, "blocklanczos refuses:\n"));
+  for (const Refusal& refusal : refusals())
+    PetscCall((*PetscHelpPrintf)(comm, "  - %s: %s.\n", refusal.what, refusal.reason));
   PetscFunctionReturn(0);
 }
 
@@ -219,6 +398,7 @@ PetscErrorCode set_from_options(EPS eps, petsc::OptionItems PetscOptionsObject)
                              "Share of the Ritz vectors beyond nev that a restart keeps", nullptr,
                              options.keep, &options.keep, nullptr));
   PetscOptionsHeadEnd();
+  if (PetscOptionsObject->printhelp) PetscCall(print_refusals(eps));
   PetscCheck(options.keep >= 0.0 && options.keep <= 0.9, PetscObjectComm((PetscObject)eps),
              PETSC_ERR_USER_INPUT, "-eps_blocklanczos_restart %g; give 0 to 0.9",
              (double)options.keep);
@@ -234,6 +414,7 @@ PetscErrorCode view(EPS eps, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "  block size %" PetscInt_FMT "\n", block_size(eps)));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  a restart keeps %g of the surplus Ritz vectors\n",
                                    (double)options_of(eps)->keep));
+  PetscCall(view_certificate(options_of(eps)->certificate, viewer));
   PetscFunctionReturn(0);
 }
 
@@ -255,10 +436,11 @@ PetscErrorCode create(EPS eps)
   Options* options = nullptr;
   PetscFunctionBegin;
   PetscCall(PetscNew(&options));
-  *options = {.block_size = 0, .keep = 0.5};
+  *options = {
+      .block_size = 0, .keep = 0.5, .strictness = 1.0, .has_eigenvalues = false, .certificate = {}};
   eps->data = options;
   eps->categ = EPS_CATEGORY_KRYLOV;
-  eps->useds = PETSC_FALSE;
+  eps->useds = PETSC_TRUE;
   eps->ops->solve = solve;
   eps->ops->setup = set_up;
   eps->ops->setupsort = set_up_sort;

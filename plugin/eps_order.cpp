@@ -6,7 +6,23 @@
 
 namespace chladni::plugin {
 
-PetscErrorCode set_up_sort(EPS eps)
+namespace {
+
+/// For the Rayleigh quotients of a transformation without an inverse.
+PetscErrorCode sort_projected_values_alike(EPS eps)
+{
+  SlepcSC projected = nullptr;
+  PetscFunctionBegin;
+  PetscCall(DSGetSlepcSC(eps->ds, &projected));
+  projected->comparison = eps->sc->comparison;
+  projected->comparisonctx = eps->sc->comparisonctx;
+  projected->map = nullptr;
+  projected->mapobj = nullptr;
+  projected->rg = nullptr;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode set_up_own_sort(EPS eps)
 {
   PetscFunctionBegin;
   eps->sc->map = nullptr;
@@ -32,10 +48,24 @@ PetscErrorCode set_up_sort(EPS eps)
       eps->sc->comparison = SlepcCompareTargetMagnitude;
       eps->sc->comparisonctx = &eps->target;
       break;
+    case EPS_ALL:
+      eps->sc->comparison = SlepcCompareSmallestReal;
+      break;
     default:
       SETERRQ(PetscObjectComm((PetscObject)eps), PETSC_ERR_SUP,
-              "blocklanczos cannot seek all eigenvalues of an interval; use -eps_type krylovschur");
+              "blocklanczos: the eigenvalues of a symmetric problem have no imaginary part; use "
+              "another -eps_which");
   }
+  PetscFunctionReturn(0);
+}
+
+}  // namespace
+
+PetscErrorCode set_up_sort(EPS eps)
+{
+  PetscFunctionBegin;
+  PetscCall(set_up_own_sort(eps));
+  PetscCall(sort_projected_values_alike(eps));
   PetscFunctionReturn(0);
 }
 

@@ -2,14 +2,45 @@
 
 #include <slepceps.h>
 
+#include <span>
+#include <vector>
+
+#include "common/petsc.hpp"
+#include "linear/lanczos/block_iteration.hpp"
+
+/// How well pairs satisfy A x = lambda B x, by multiplication with A and B.
 namespace chladni::plugin {
 
-/// The number of leading pairs, of the nconv pairs of a solved EPS, that satisfy A x = lambda B x.
-/// The residual is compared with 100 times the tolerance, at least 1e-4, times (lambda - sigma) B
-/// x, and with the round-off of A x, in a norm that does not depend on units. A residual above 100
-/// times the tolerance becomes the error estimate of its pair.
-/// @param X  eigenvectors [n x nconv] dense
+/// An eigenvalue, and its distance to what the transformation inverts about.
+struct Eigenvalue {
+  double lambda, distance;
+};
+
+/// The eigenvalue of a value theta of the transformed problem.
+Eigenvalue eigenvalue(EPS eps, double theta);
+
+/// Residuals of one pair.
+struct PairErrors {
+  /// ||A x - lambda B x|| over (lambda - sigma) B x, in a norm that does not depend on units; 0
+  /// where it is round-off of A x.
+  double scaled;
+  double printed;    ///< ||A x - lambda B x|| / |lambda| ||x||, as EPSErrorView prints it
+  double round_off;  ///< of `printed`, at least
+};
+
+/// @param X  dense, a column for each value
 /// @note   Collective.
-PetscInt n_true_pairs(EPS eps, Mat X);
+std::vector<PairErrors> pair_errors(EPS eps, Mat X, std::span<const Eigenvalue> values);
+
+/// Pairs of A x = lambda B x in the wanted order.
+struct Pairs {
+  std::vector<double> lambda;
+  petsc::Matrix X;  ///< orthonormal in B
+};
+
+/// The pairs of the space that Op X spans, by Rayleigh and Ritz with A and B themselves: what an
+/// inexact operator has left of the residuals becomes less where it inverts.
+/// @note   Collective.
+Pairs refined(EPS eps, Mat X, const linear::BlockOperator& op);
 
 }  // namespace chladni::plugin

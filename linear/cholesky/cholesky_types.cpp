@@ -14,6 +14,22 @@ namespace chladni::linear {
 
 namespace {
 
+/// MatGetInertia: signs of the pivots of L D L^T, all of them on the caller's ranks.
+PetscErrorCode get_inertia(Mat F, PetscInt* n_negative, PetscInt* n_zero, PetscInt* n_positive)
+{
+  const CholeskyFactor& factor = factor_of(F);
+  PetscCheck(factor.error() == MAT_FACTOR_NOERROR, PetscObjectComm((PetscObject)F),
+             PETSC_ERR_MAT_CH_ZRPVT,
+             "%s: a pivot is zero, so that the shift is an eigenvalue to round-off, or the memory "
+             "does not suffice; there is no inertia: move the shift",
+             F->solvertype);
+  const PetscInt n = factor.n_negative_pivots();
+  if (n_negative) *n_negative = n;
+  if (n_zero) *n_zero = 0;  // they end the factorisation
+  if (n_positive) *n_positive = F->rmap->N - n;
+  return 0;
+}
+
 PetscErrorCode factorize(Mat F, Mat A, const MatFactorInfo*)
 {
   return guarded([&] {
@@ -159,6 +175,7 @@ PetscErrorCode create_factor(Mat A, MatFactorType type, const char* name,
   B->ops->destroy = destroy;
   B->ops->view = view;
   B->ops->getinfo = get_info;
+  B->ops->getinertia = get_inertia;
   B->factortype = type;
   B->canuseordering = PETSC_FALSE;
   PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(B), "MatFactorGetSolverType_C",

@@ -33,7 +33,10 @@ Orthonormalisation orthonormalisation(const Eigen::MatrixXd& G, const std::vecto
                             .R = Eigen::MatrixXd(r, n),
                             .left_out = Eigen::MatrixXd(n - r, n),
                             .shortest = 1.0,
-                            .condition = 1.0};
+                            .condition = 1.0,
+                            .least_square = n > 0 ? value(n - 1) : 0.0,
+                            .least_direction = Eigen::MatrixXd(n, 1)};
+  for (PetscInt i = 0; i < n; ++i) result.least_direction(i, 0) = eigen.vectors(i, 0) / sizes[i];
   for (PetscInt k = 0; k < n; ++k) {
     const double length = std::sqrt(std::abs(value(k)));
     for (PetscInt i = 0; i < n; ++i) {

@@ -13,7 +13,9 @@ struct Orthonormalisation {
   Eigen::MatrixXd left_out;  ///< [n - r x n]: the rest in orthonormal directions
   /// length of the shortest direction kept, with columns divided by their sizes
   double shortest;
-  double condition;  ///< ratio of the longest to the shortest direction kept
+  double condition;                 ///< ratio of the longest to the shortest direction kept
+  double least_square;              ///< the smallest eigenvalue of G with columns divided by sizes
+  Eigen::MatrixXd least_direction;  ///< [n x 1]: X least_direction has that square of a length
 };
 
 /// Keeps the directions whose length, with columns divided by their `sizes`, exceeds `least`. Each

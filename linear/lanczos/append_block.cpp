@@ -5,6 +5,7 @@
 
 #include "common/eigen_every.hpp"
 #include "linear/kernels/columns_with_mass.hpp"
+#include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/orthonormalisation.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/tall_products.hpp"
@@ -102,9 +103,16 @@ LongColumns BlockBasis::local_columns(PetscInt first) const
           .n_columns = n_columns_ - first};
 }
 
-/// block <- block - V V^T M block; returns V^T M block.
+void BlockBasis::take_out_excluded(Mat block) const
+{
+  if (excluded_ != nullptr)
+    add_product(-1.0, excluded_, inner_product(excluded_, times_mass(block)), block);
+}
+
+/// block <- block - V V^T M block, without what is excluded; returns V^T M block.
 MatrixXd BlockBasis::project_out(Mat block, Mat M_block)
 {
+  if (excluded_ != nullptr) add_product(-1.0, excluded_, inner_product(excluded_, M_block), block);
   if (n_columns_ == 0) return MatrixXd(0, LocalRows(block).n_cols());
   const LocalRows rows(M_block);
   MatrixXd h = tall_inner_product(local_columns(0), long_columns(rows));
@@ -156,6 +164,24 @@ BlockBasis::Appended BlockBasis::append(Mat block)
           .left_out = std::vector(G.cols(), 0.0)};
 }
 
+/// A direction of negative length in M, beyond the round-off of its terms, is one of an indefinite
+/// M. Left out as dependent it would end the iteration with too few pairs.
+void BlockBasis::refuse_negative_length(Mat block, const Orthonormalisation& o) const
+{
+  constexpr double round_off = 1e-9, of_gram_matrix = 1e-10;
+  if (!(o.least_square < -of_gram_matrix)) return;
+  const petsc::Matrix x = new_block(1);
+  petsc::check(MatZeroEntries(x));
+  add_product(1.0, block, o.least_direction, x);
+  const double terms = value_of_first_rank(diagonal_terms(x, M_)[0], comm());
+  if (o.least_square >= -round_off * std::abs(terms)) return;
+  throw Error(
+      fmt::format("block Lanczos: x^T M x = {:.3g} for a vector x with sum M_ii x_i^2 = {:.3g}: M "
+                  "(B of an EPS), the matrix of the inner product, is indefinite; it must be "
+                  "positive semidefinite",
+                  o.least_square, terms));
+}
+
 /// Q of block = Q R joins the basis, with what orthogonality Q lacked in the coefficients.
 BlockBasis::Joined BlockBasis::join(Mat block, Mat M_block, const MatrixXd& G,
                                     const std::vector<double>& sizes)
@@ -163,6 +189,7 @@ BlockBasis::Joined BlockBasis::join(Mat block, Mat M_block, const MatrixXd& G,
   constexpr double dependent = 1e-13;  // round-off with room
   constexpr double harmless = 30.0;    // loses 900 eps of orthonormality
   const Orthonormalisation o = orthonormalisation(G, sizes, dependent, comm());
+  refuse_negative_length(block, o);
   // A second look may find more directions than the block has.
   reserve(n_columns_ + static_cast<PetscInt>(o.R.rows()));
   Joined joined{

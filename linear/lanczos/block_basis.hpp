@@ -7,6 +7,7 @@
 #include "common/petsc.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/growing_memory.hpp"
+#include "linear/kernels/orthonormalisation.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "linear/kernels/tall_products.hpp"
 
@@ -25,6 +26,10 @@ class BlockBasis {
   PetscInt n_columns() const { return n_columns_; }
   PetscInt capacity() const { return capacity_; }
 
+  /// Keeps all columns from now on orthogonal to those of C, which are orthonormal in M.
+  void exclude(petsc::Matrix C) { excluded_ = std::move(C); }
+  /// block <- block - C C^T M block for the excluded columns C.
+  void take_out_excluded(Mat block) const;
   /// Makes room for more columns. Existing columns are not copied: they stay, or are moved by
   /// pages.
   /// @throws chladni::Error when there is not enough memory.
@@ -92,6 +97,7 @@ class BlockBasis {
   };
   Chosen by_digits_of_mass(PetscInt n);
   void clean(Joined& joined);
+  void refuse_negative_length(Mat block, const Orthonormalisation& o) const;
   Joined join(Mat block, Mat M_block, const Eigen::MatrixXd& G, const std::vector<double>& sizes);
   Appended look_again(Mat block, Mat M_block, const Joined& first, Eigen::MatrixXd h,
                       const std::vector<double>& lengths);
@@ -102,6 +108,7 @@ class BlockBasis {
   PetscInt n_local_ = 0, n_global_ = 0;
   PetscInt capacity_ = 0;
   PetscInt n_columns_ = 0;
+  petsc::Matrix excluded_;  ///< may be empty
   petsc::Matrix newest_M_;  ///< M times the last block
   std::vector<petsc::Matrix> lost_;
   petsc::Matrix second_last_M_;       ///< M times the block before; empty after compress

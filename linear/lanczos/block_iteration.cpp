@@ -53,6 +53,7 @@ petsc::Matrix BlockIteration::random_directions(PetscInt n)
   petsc::Matrix Z = basis_.new_block(n);
   fill_with_random_numbers(Z, n_random_);
   n_random_ += n;
+  basis_.take_out_excluded(Z);
   if (basis_.n_columns() == 0) return Z;  // the operator takes it as it is
   const PetscInt n_before = basis_.n_columns();
   const auto n_new = static_cast<PetscInt>(basis_.append(Z).R.rows());
@@ -116,6 +117,7 @@ void BlockIteration::start(const BlockOperator& op, Mat guesses, PetscInt n_gues
   petsc::check(MatScale(X, random_share));
   normalise_columns(guesses, basis_.times_mass(guesses));
   petsc::check(MatAXPY(X, 1.0, guesses, SAME_NONZERO_PATTERN));
+  basis_.take_out_excluded(X);
   petsc::Matrix block = basis_.new_block(n_columns_of(guesses));
   op(X, basis_.times_mass(X), block);
   basis_.append(block);

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "linear/kernels/symmetric_eigen.hpp"
 #include "linear/lanczos/block_basis.hpp"
@@ -28,6 +29,8 @@ class BlockIteration {
   /// @param scratch   folder for files that hold them; empty: they are in memory
   BlockIteration(Mat M, PetscInt block_size, PetscInt capacity, const std::string& scratch = {});
 
+  /// As BlockBasis. The operator must not lead to what is excluded either.
+  void exclude(petsc::Matrix C) { basis_.exclude(std::move(C)); }
   /// Makes room for a larger basis.
   void reserve(PetscInt capacity) { basis_.reserve(capacity); }
   /// Starts with a deterministic block of random vectors, to which the operator is applied once.

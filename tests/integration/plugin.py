@@ -104,8 +104,9 @@ def answers_of_the_solver_type(plugin):
     for words in ("type: blocklanczos", "block size 8", "EPS nconv=", "-eps_blocklanczos_blocksize"):
         yield expect(f"prints '{words}'", words in view)
     for options, words in (
-        ("-eps_interval 0,1 -st_type sinvert", "use -eps_type krylovschur"),
-        ("-st_type cayley -eps_target 0.1", "-st_type sinvert"),
+        ("-eps_interval 0,1", "add -st_type sinvert"),
+        ("-eps_interval 0,1 -st_type sinvert -st_ksp_type cg", "counted by the pivots of a factor"),
+        ("-st_type filter -eps_interval 0,1", "blocklanczos refuses transformations other than"),
         ("-eps_nev 20 -eps_ncv 24 -eps_blocklanczos_blocksize 8", "-eps_ncv 24 is too small: give at least nev + 2 blocks = 36"),
         ("-eps_blocklanczos_restart 2", "give 0 to 0.9"),
     ):
@@ -113,6 +114,28 @@ def answers_of_the_solver_type(plugin):
             text = plugin.run([plugin.examples / "laplacian"], ranks,
                               f"{plugin.load()} -eps_type blocklanczos {options}", code=1)  # fmt: skip
             yield expect(f"{options}: '{words}', {ranks} ranks", words in text)
+
+
+def intervals(plugin):
+    """All eigenvalues of an interval, whose ends may be eigenvalues of two copies."""
+    exact = square_laplacian(30, 900)
+    for low, high in ((0.1, 0.5), (exact[1], exact[4]), (-1.0, 0.0), (3.9, 4.1)):
+        inside = exact[(exact > low - 1e-9) & (exact < high + 1e-9)]
+        for ranks in (1, 2):
+            for package in ("", "supernodal", "mumps"):
+                chosen = f"-st_pc_type cholesky -st_pc_factor_mat_solver_type {package}" if package else ""
+                text = plugin.run([plugin.examples / "laplacian", "-eps_view"], ranks,
+                                  f"{plugin.load()} -eps_type blocklanczos -st_type sinvert -eps_interval {low!r},{high!r} {chosen}")  # fmt: skip
+                found = numbers(text).reshape(-1, 2)
+                named = f"{len(inside)} in {low:.3g} .. {high:.3g}, {package or 'by default'}, {ranks} ranks"
+                yield expect(named, len(found) == len(inside) and np.allclose(found[:, 0], inside, rtol=1e-10, atol=1e-12))
+                yield expect("their errors", np.all(found[:, 1] < 1e-8))
+                counts = re.search(r"certified by (\d+) factors: (\d+) eigenvalues below \S+, (\d+) below", text)
+                yield expect("and their counts", counts and int(counts[3]) - int(counts[2]) == len(inside), counts and counts[0])
+    theirs = plugin.run([plugin.examples / "laplacian"], 1, f"{plugin.load()} -eps_interval 0.1,0.5 -st_type sinvert "
+                        "-st_pc_type cholesky -st_pc_factor_mat_solver_type supernodal")  # fmt: skip
+    inside = exact[(exact > 0.1) & (exact < 0.5)]
+    yield expect("by krylovschur with supernodal", np.allclose(numbers(theirs)[:, 0], inside, rtol=1e-9))
 
 
 def python(plugin):
@@ -302,7 +325,7 @@ def interrupted_run(plugin):
 
 def main(build, mpirun):
     plugin = Plugin(build, mpirun)
-    parts = (solver_type_of_an_alien_program, answers_of_the_solver_type, python,
+    parts = (solver_type_of_an_alien_program, answers_of_the_solver_type, intervals, python,
              memory_of_one_rank,
              class_of_the_compiled_example, sectors_of_the_compiled_example, matrix_market, interrupted_run)  # fmt: skip
     results = [result for part in parts for result in part(plugin)]
