@@ -70,13 +70,6 @@ std::string beam(const mesh::DeclaredBeam& beam)
   return text;
 }
 
-std::string coupling(const mesh::DeclaredCoupling& coupling)
-{
-  return fmt::format("\n[[coupling]]\ntype = \"{}\"\nname = {}\ngroup = {}\n",
-                     coupling.averages ? "averaging" : "rigid", quoted(coupling.name),
-                     quoted(coupling.group));
-}
-
 std::string support(const mesh::DeclaredSupport& support)
 {
   std::string dofs;
@@ -99,6 +92,18 @@ template <std::size_t n>
 bool is_zero(const std::array<double, n>& numbers)
 {
   return std::ranges::all_of(numbers, [](double x) { return x == 0.0; });
+}
+
+std::string coupling(const mesh::DeclaredCoupling& coupling)
+{
+  const bool averages = coupling.kind == mesh::CouplingOfDeck::averaging;
+  std::string text =
+      fmt::format("\n[[coupling]]\ntype = \"{}\"\n", averages ? "averaging" : "rigid");
+  if (!coupling.name.empty()) text += fmt::format("name = {}\n", quoted(coupling.name));
+  text += fmt::format("group = {}\n", quoted(coupling.group));
+  if (!coupling.to.empty()) text += fmt::format("to = {}\n", quoted(coupling.to));
+  if (coupling.at) text += fmt::format("at = {}\n", list(*coupling.at));
+  return text;
 }
 
 std::string mass(const mesh::DeclaredMass& mass)

@@ -21,7 +21,7 @@ namespace chladni::cases {
 namespace {
 
 /// A coupling of the whole body has one reference node. That of a sector would be another one in
-/// each, unless its group goes on from sector to sector.
+/// each, unless its group goes on from sector to sector about a reference node on the axis.
 void refuse_groups_in_parts(const scene::Scene& scene, const mesh::Mesh& sector)
 {
   const auto is_cut = [&](int node) {
@@ -31,11 +31,16 @@ void refuse_groups_in_parts(const scene::Scene& scene, const mesh::Mesh& sector)
   for (const plate::Coupling& coupling : scene.couplings) {
     if (coupling.kind == plate::CouplingKind::link) continue;
     const std::vector<int>& group = mesh::find_group(sector, coupling.group).nodes;
-    if (coupling.kind == plate::CouplingKind::rigid && std::ranges::any_of(group, is_cut)) continue;
+    const bool is_on_axis =
+        !coupling.at || mesh::is_on_axis(*coupling.at, mesh::outer_radius(sector));
+    const bool is_rigid = coupling.kind == plate::CouplingKind::rigid;
+    if (is_rigid && coupling.has_reference_node() && is_on_axis &&
+        std::ranges::any_of(group, is_cut))
+      continue;
     throw Error(
         fmt::format("sectors: the coupling \"{}\" joins nodes of several sectors that do not meet, "
                     "or their mean",
-                    coupling.name));
+                    coupling.has_reference_node() ? coupling.name : coupling.group));
   }
 }
 

@@ -15,12 +15,12 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 bool is_geo(const mesh::MeshOptions& mesh)
 {
-  return mesh.file && mesh.file->ends_with(".geo");
+  return mesh.file && mesh::mesh_source(*mesh.file) == mesh::MeshSource::geo;
 }
 
 bool is_step(const mesh::MeshOptions& mesh)
 {
-  return mesh.file && (mesh.file->ends_with(".step") || mesh.file->ends_with(".stp"));
+  return mesh.file && mesh::mesh_source(*mesh.file) == mesh::MeshSource::step;
 }
 
 /// Visits the options of the generator that has surfaces; none of a beam.

@@ -9,7 +9,6 @@
 #include "cli/chladni_commands.hpp"
 #include "common/error.hpp"
 #include "files/text_file.hpp"
-#include "mesh/decks/is_deck.hpp"
 #include "report/output.hpp"
 #include "scene/scene.hpp"
 

@@ -9,6 +9,7 @@
 #include "mbs_export/measured/measured_modes.hpp"
 #include "mbs_export/measured/modal_assurance.hpp"
 #include "report/describe_assurance.hpp"
+#include "report/progress.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -20,6 +21,7 @@ void compare_modes(const MacArguments& arguments)
   if (!arguments.length_unit.empty()) metres = metres_of(arguments.length_unit);
   const mbs_export::MeasuredModes measured =
       mbs_export::read_measured_modes(arguments.measured, metres);
+  for (const std::string& note : measured.notes) report::tell_note(report::printable(note));
   const mbs_export::ModalAssurance found =
       mbs_export::modal_assurance(body, measured, arguments.distance);
   fmt::print("{}\n\n{}\n{}", report::printable(body.title),

@@ -13,8 +13,6 @@
 #include "cli/writer_mark.hpp"
 #include "common/error.hpp"
 #include "files/text_file.hpp"
-#include "mesh/decks/is_deck.hpp"
-#include "mesh/exchange/is_exchange.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/repetition.hpp"
@@ -40,7 +38,6 @@ struct Subject {
 Subject read_subject(const ChladniArguments& arguments)
 {
   const std::string& path = arguments.scene.scene;
-  const std::string extension = std::filesystem::path(path).extension().string();
   const std::string& unit = arguments.mesh.length_unit;
   const bool has_no_unit = mesh::is_deck(path) || mesh::is_exchange(path);
   if (has_no_unit && unit.empty()) {
@@ -52,7 +49,7 @@ Subject read_subject(const ChladniArguments& arguments)
                 ": --length-unit is for decks, .unv, .med and .vtu files without a scene; give "
                 "length_unit in [mesh] instead");
   }
-  if (has_no_unit || scene::contains({".msh", ".geo", ".step", ".stp"}, extension)) {
+  if (mesh::mesh_source(path)) {
     Subject subject{.name = std::filesystem::path(path).stem().string(),
                     .title = path,
                     .mesh = {.file = path, .length_unit = has_no_unit ? metres_of(unit) : 1.0}};

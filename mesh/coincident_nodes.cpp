@@ -87,6 +87,21 @@ void replace_nodes(Mesh& mesh, const std::vector<int>& by)
   }
 }
 
+/// Pairs that no coupling joins: not both of their nodes are in one of the groups.
+std::vector<std::array<int, 2>> without_coupled(std::vector<std::array<int, 2>> pairs,
+                                                const Mesh& mesh,
+                                                const std::vector<std::string>& groups)
+{
+  std::set<int> coupled;
+  for (const Group& group : mesh.groups)
+    if (std::ranges::find(groups, group.name) != groups.end())
+      coupled.insert(group.nodes.begin(), group.nodes.end());
+  std::erase_if(pairs, [&](const auto& pair) {
+    return coupled.contains(pair[0]) && coupled.contains(pair[1]);
+  });
+  return pairs;
+}
+
 }  // namespace
 
 std::vector<std::array<int, 2>> coincident_nodes(const Mesh& mesh, double tolerance)
@@ -121,12 +136,13 @@ std::vector<std::array<int, 2>> coincident_nodes(const Mesh& mesh, double tolera
   return pairs;
 }
 
-Mesh treat_coincident_nodes(Mesh mesh, Coincident treatment, std::optional<double> tolerance)
+Mesh treat_coincident_nodes(Mesh mesh, const MeshOptions& options)
 {
+  const Coincident treatment = options.coincident_nodes;
   if (treatment == Coincident::keep) return mesh;
-  const double within =
-      tolerance.value_or(std::min(1e-6 * extent(mesh), 0.1 * least_distance_in_elements(mesh)));
-  const auto pairs = coincident_nodes(mesh, within);
+  const double within = options.merge_tolerance.value_or(
+      std::min(1e-6 * extent(mesh), 0.1 * least_distance_in_elements(mesh)));
+  const auto pairs = without_coupled(coincident_nodes(mesh, within), mesh, options.coupled_groups);
   if (pairs.empty()) return mesh;
   if (treatment == Coincident::refuse) {
     throw Error(fmt::format(
@@ -139,7 +155,7 @@ Mesh treat_coincident_nodes(Mesh mesh, Coincident treatment, std::optional<doubl
   for (const auto& [kept, merged] : pairs) by[merged] = kept;
   replace_nodes(mesh, by);
   check_no_collapse(mesh, within);
-  drop_unused_nodes(mesh);
+  drop_unused_nodes(mesh, options.coupled_groups);
   mesh.notes.push_back(
       fmt::format("{} coincident nodes were merged (within {:.3g} m)", pairs.size(), within));
   return mesh;

@@ -39,11 +39,14 @@ const Group& find_group(const Mesh& mesh, const std::string& name)
                           names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
-void drop_unused_nodes(Mesh& mesh)
+void drop_unused_nodes(Mesh& mesh, std::span<const std::string> kept)
 {
   std::vector<int> renumbered(mesh.positions.size(), -1);
   for (const ElementBlock& block : mesh.blocks)
     for (const int node : block.nodes) renumbered[node] = 0;
+  for (const Group& group : mesh.groups)
+    if (std::ranges::find(kept, group.name) != kept.end())
+      for (const int node : group.nodes) renumbered[node] = 0;
   int n = 0;
   for (std::size_t i = 0; i < renumbered.size(); ++i) {
     if (renumbered[i] < 0) continue;

@@ -62,7 +62,8 @@ struct Mesh {
 const Group& find_group(const Mesh& mesh, const std::string& name);
 
 /// Removes the nodes that no element uses, from the groups too. The others keep their order.
-void drop_unused_nodes(Mesh& mesh);
+/// @param kept  names of groups whose nodes stay in any case; some may not exist
+void drop_unused_nodes(Mesh& mesh, std::span<const std::string> kept = {});
 
 /// The FNV-1a hash of coordinates and connectivity, in hexadecimal.
 std::string checksum(const Mesh& mesh);

@@ -17,7 +17,6 @@
 #include "files/regular_file.hpp"
 #include "files/text_file.hpp"
 #include "files/xxh64.hpp"
-#include "mesh/decks/is_deck.hpp"
 #include "mesh/packed_mesh.hpp"
 #include "mesh/packed_options.hpp"
 
@@ -79,7 +78,7 @@ std::string why_not_kept(const MeshOptions& options)
   const std::string& file = *options.file;
   if (options.trust == Trust::owner) return "--trust-mesh lets it depend on anything";
   if (is_deck(file)) return "a deck may include others";
-  if (fs::path(file).extension() != ".geo") return "";
+  if (mesh_source(file) != MeshSource::geo) return "";
   static const std::regex other_files(
       "Include|Merge|File|System|GetEnv|GetString|Plugin|OnelabRun|Exists");
   return std::regex_search(text_of(file), other_files) ? "it may read other files" : "";

@@ -1,12 +1,88 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cctype>
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace chladni::mesh {
+
+/// How a mesh file is read.
+enum class MeshSource { msh, geo, step, unv, med, vtu, nastran, abaqus };
+
+/// A kind of mesh file, by what its name ends with, in letters of either case.
+struct FileKind {
+  std::string_view extension;
+  MeshSource source;
+};
+
+/// All kinds of mesh files.
+inline constexpr std::array<FileKind, 12> file_kinds{{{".msh", MeshSource::msh},
+                                                      {".geo", MeshSource::geo},
+                                                      {".step", MeshSource::step},
+                                                      {".stp", MeshSource::step},
+                                                      {".unv", MeshSource::unv},
+                                                      {".med", MeshSource::med},
+                                                      {".mmed", MeshSource::med},
+                                                      {".vtu", MeshSource::vtu},
+                                                      {".bdf", MeshSource::nastran},
+                                                      {".nas", MeshSource::nastran},
+                                                      {".dat", MeshSource::nastran},
+                                                      {".inp", MeshSource::abaqus}}};
+
+/// How a mesh file of this name is read; nothing if it is none by its name.
+inline std::optional<MeshSource> mesh_source(std::string_view file)
+{
+  const auto is_same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == b;
+  };
+  for (const auto& [extension, source] : file_kinds) {
+    if (file.size() <= extension.size()) continue;
+    if (std::ranges::equal(file.substr(file.size() - extension.size()), extension, is_same))
+      return source;
+  }
+  return std::nullopt;
+}
+
+/// True for a deck of another FE program. It has sections and does not tell its unit of length.
+constexpr bool is_deck(MeshSource source)
+{
+  return source == MeshSource::nastran || source == MeshSource::abaqus;
+}
+inline bool is_deck(std::string_view file)
+{
+  const auto source = mesh_source(file);
+  return source && is_deck(*source);
+}
+
+/// True for a format that carries meshes with groups between programs. Such files give no reliable
+/// unit of length and no sections.
+constexpr bool is_exchange(MeshSource source)
+{
+  return source == MeshSource::unv || source == MeshSource::med || source == MeshSource::vtu;
+}
+inline bool is_exchange(std::string_view file)
+{
+  const auto source = mesh_source(file);
+  return source && is_exchange(*source);
+}
+
+/// The extensions of the kinds for which `holds` does: ".msh, .geo, ... or .inp".
+inline std::string extensions_of(bool (*holds)(MeshSource) = [](MeshSource) { return true; })
+{
+  std::vector<std::string_view> found;
+  for (const FileKind& kind : file_kinds)
+    if (holds(kind.source)) found.push_back(kind.extension);
+  std::string text;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    text.append(i == 0 ? "" : i + 1 < found.size() ? ", " : " or ").append(found[i]);
+  return text;
+}
 
 /// Nodes at equal angles on a circle about the z axis, the first on the x axis.
 struct RingOptions {
@@ -109,6 +185,13 @@ struct BeamMeshOptions {
 /// What happens to nodes of unconnected elements of a file that stand at one place.
 enum class Coincident { refuse, merge, keep };
 
+/// What happens to elements of a deck that have the same nodes as another one of their type.
+enum class Doubled {
+  refuse,
+  merge,  ///< the first one stands for all
+  keep    ///< their stiffness and mass add up
+};
+
 /// Whether a body that is periodic about the z axis is reduced from one sector of its mesh.
 enum class SectorSearch {
   none,                   ///< never
@@ -155,9 +238,12 @@ struct MeshOptions {
   std::vector<std::string> line_groups = {};  ///< groups of curves that become line elements
   /// Groups of surfaces with a section. They decide where an element is in several groups.
   std::vector<std::string> shell_groups = {};
+  /// Groups of rigid couplings and links, whose nodes stay although no element has them.
+  std::vector<std::string> coupled_groups = {};
   int sectors = 1;  ///< number of equal sectors, of which the file holds one
   SectorSearch sector_search = SectorSearch::none;
   Coincident coincident_nodes = Coincident::refuse;
+  Doubled doubled_elements = Doubled::refuse;  ///< of a deck
   std::optional<double> merge_tolerance = {};  ///< m
   std::optional<std::string> cache = {};    ///< folder in which meshes are kept, of generators too
   Trust trust = Trust::stranger;            ///< never set by the scene, which comes with the mesh

@@ -13,9 +13,7 @@
 #include "confinement/confine.hpp"
 #include "confinement/helper.hpp"
 #include "confinement/system_calls.hpp"
-#include "mesh/decks/is_deck.hpp"
 #include "mesh/decks/read_deck.hpp"
-#include "mesh/exchange/is_exchange.hpp"
 #include "mesh/own_readers.hpp"
 #include "mesh/packed_mesh.hpp"
 #include "mesh/packed_options.hpp"
@@ -45,7 +43,7 @@ std::optional<confinement::Limits> limits_of(const MeshOptions& options)
   const std::uint64_t size = unknown ? 0 : found;  // the mesher says what is wrong with it
   const std::uint64_t machine = bytes_of_machine();
   const bool is_mesh =
-      fs::path(*options.file).extension() == ".msh" || has_own_reader(*options.file);
+      mesh_source(*options.file) == MeshSource::msh || has_own_reader(*options.file);
   const double usual = is_mesh ? 60.0 + 4.0 * double(size) / double(MiB) : 900.0;
   const std::uint64_t most = is_mesh ? std::min(1024 * MiB + 64 * size, machine) : machine / 4 * 3;
   return confinement::Limits{

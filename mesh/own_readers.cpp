@@ -1,8 +1,6 @@
 #include "mesh/own_readers.hpp"
 
-#include "mesh/decks/is_deck.hpp"
 #include "mesh/decks/read_deck.hpp"
-#include "mesh/exchange/is_exchange.hpp"
 #include "mesh/exchange/read_exchange.hpp"
 
 namespace chladni::mesh {

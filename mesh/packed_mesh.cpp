@@ -73,7 +73,9 @@ void transfer_declarations(auto& archive, auto& declared)
   archive.each(declared.couplings, [](auto& a, auto& coupling) {
     a(coupling.name);
     a(coupling.group);
-    a(coupling.averages);
+    a(coupling.kind);
+    a(coupling.to);
+    a(coupling.at);
   });
   archive.each(declared.supports, [](auto& a, auto& support) {
     a(support.group);

@@ -86,6 +86,8 @@ void transfer_options(auto& archive, auto& options)
   transfer_rings(archive, options.rings);
   archive.each(options.line_groups, [](auto& a, auto& name) { a(name); });
   archive.each(options.shell_groups, [](auto& a, auto& name) { a(name); });
+  archive.each(options.coupled_groups, [](auto& a, auto& name) { a(name); });
+  archive(options.doubled_elements);
 }
 
 void transfer_limits(auto& archive, auto& limits)

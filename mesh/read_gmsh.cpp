@@ -48,8 +48,7 @@ Mesh read_gmsh(const MeshOptions& options)
   const std::string& file = options.file.value();
   try {
     Mesh made = kept_mesh(options, [&] { return made_by_mesher(options); });
-    Mesh mesh =
-        treat_coincident_nodes(std::move(made), options.coincident_nodes, options.merge_tolerance);
+    Mesh mesh = treat_coincident_nodes(std::move(made), options);
     find_sector_edges(mesh, options.sectors);
     const std::string hint = hint_of_unit(mesh, options);
     if (!hint.empty()) mesh.notes.push_back(hint);
@@ -73,6 +72,21 @@ Mesh generated(const MeshOptions& options)
   return beam(options.beam.value());
 }
 
+/// What helps where curved edges fold elements over; empty where the order is not the scene's,
+/// or 1.
+std::string hint_of_order(const Mesh& mesh, const MeshOptions& options)
+{
+  const auto source = options.file ? mesh_source(*options.file) : std::nullopt;
+  const bool is_chosen = !source || source == MeshSource::geo || source == MeshSource::step;
+  int order = 1;
+  for (const ElementBlock& block : mesh.blocks) order = std::max(order, block.order);
+  if (!is_chosen || order == 1) return "";
+  return fmt::format(
+      ". Elements of order {} fold over where an edge is much curved: take smaller ones, or "
+      "element_order = {} in [mesh]",
+      order, order - 1);
+}
+
 }  // namespace
 
 Mesh draft(const MeshOptions& options)
@@ -84,7 +98,11 @@ Mesh draft(const MeshOptions& options)
 Mesh generate(const MeshOptions& options)
 {
   Mesh mesh = draft(options);
-  check_usable(mesh, options.file ? fmt::format("mesh file {}", *options.file) : "the mesh");
+  try {
+    check_usable(mesh, options.file ? fmt::format("mesh file {}", *options.file) : "the mesh");
+  } catch (const Error& error) {
+    throw Error(error.what() + hint_of_order(mesh, options));
+  }
   return mesh;
 }
 

@@ -105,21 +105,27 @@ struct Structure {
 };
 
 /// The kinds of couplings:
-/// - rigid: a reference node at the centre of a group whose nodes follow it as a rigid body;
+/// - rigid: a reference node, at the centre of a group unless `at` says where, whose motion the
+///   nodes of the group follow as a rigid body. With `to` there is no reference node: they follow
+///   the one node of that group, or the reference node of that coupling;
 /// - link: each node of a group follows its nearest node in the group `to` as a rigid body, across
 ///   any gap between them (a bell that ends at the face of a disc and its mid-surface);
-/// - averaging: a reference node at the centre of a group that moves as the group does on average
-///   and adds no stiffness: its translation and rotation are the least-squares fit to the
-///   displacements of the nodes, weighted with the length or area of each. Forces on it reach the
-///   nodes as an even traction.
+/// - averaging: a reference node, at the centre of a group unless `at` says where, that moves as
+/// the
+///   group does on average and adds no stiffness: its translation and rotation are the
+///   least-squares fit to the displacements of the nodes, weighted with the length or area of each.
+///   Forces on it reach the nodes as an even traction.
 enum class CouplingKind { rigid, link, averaging };
 
 /// A coupling of the nodes of a group.
 struct Coupling {
-  std::string name;   ///< of the reference node; empty for a link
+  std::string name;   ///< of the reference node; empty where there is none (`to`)
   std::string group;  ///< the nodes that are coupled
   CouplingKind kind = CouplingKind::rigid;
-  std::string to = {};  ///< for a link: group that is followed
+  std::string to = {};  ///< of a link: group that is followed; of a rigid one: or a coupling
+  std::optional<std::array<double, 3>> at = {};  ///< m; absent: the centre of the nodes
+
+  bool has_reference_node() const { return to.empty(); }
 };
 
 /// A ring of nodes whose circumferential harmonics 0 .. `up_to` become coordinates.

@@ -19,27 +19,12 @@ mesh::RingOptions read_ring(const Table& ring, const Admissible& radii)
   return options;
 }
 
-/// Decks of other FE programs, which tell no unit.
-bool is_deck(const std::filesystem::path& file)
-{
-  return contains({".bdf", ".nas", ".dat", ".inp"}, file.extension().string());
-}
-
-/// Files that carry a mesh and its groups from program to program, and tell no unit either.
-bool is_exchange(const std::filesystem::path& file)
-{
-  return contains({".unv", ".med", ".mmed", ".vtu"}, file.extension().string());
-}
-
 std::string read_file_name(const Table& mesh, const std::string& scene_path)
 {
   const std::filesystem::path file = mesh.text("file");
-  const std::string extension = file.extension().string();
-  if (!contains({".msh", ".geo", ".step", ".stp"}, extension) && !is_deck(file) &&
-      !is_exchange(file)) {
-    mesh.refuse("file",
-                "must be a .msh, .geo, .step, .unv, .med or .vtu file, or a deck of Nastran (.bdf, "
-                ".nas, .dat) or Abaqus (.inp)");
+  if (!mesh::mesh_source(file.string())) {
+    mesh.refuse("file", "must be a mesh file: " + mesh::extensions_of() +
+                            " (a deck of Nastran or, the last one, of Abaqus)");
   }
   return (std::filesystem::path(scene_path).parent_path() / file).lexically_normal().string();
 }
@@ -92,6 +77,13 @@ mesh::Coincident read_coincident_nodes(const Table& mesh)
                                                             {"keep", mesh::Coincident::keep}});
 }
 
+mesh::Doubled read_doubled_elements(const Table& mesh)
+{
+  return mesh.choice<mesh::Doubled>("doubled_elements", {{"refuse", mesh::Doubled::refuse},
+                                                         {"merge", mesh::Doubled::merge},
+                                                         {"keep", mesh::Doubled::keep}});
+}
+
 /// Refuses a key that makes no sense with this kind of file.
 void check_only_for(const Table& mesh, const char* key, bool makes_sense, const char* why)
 {
@@ -110,10 +102,11 @@ std::optional<double> read_size_of_step(const Table& mesh, Size size)
 mesh::MeshOptions read_file(const Table& mesh, Size size, const std::string& scene_path)
 {
   mesh::MeshOptions options{.file = read_file_name(mesh, scene_path)};
-  const bool is_msh = options.file->ends_with(".msh");
-  const bool is_geo = options.file->ends_with(".geo");
-  const bool is_finished = is_deck(*options.file) || is_exchange(*options.file);
-  const bool is_step = !is_msh && !is_geo && !is_finished;
+  const mesh::MeshSource source = *mesh::mesh_source(*options.file);
+  const bool is_msh = source == mesh::MeshSource::msh;
+  const bool is_geo = source == mesh::MeshSource::geo;
+  const bool is_step = source == mesh::MeshSource::step;
+  const bool is_finished = !is_msh && !is_geo && !is_step;
   check_only_for(mesh, "element_order", is_geo || is_step,
                  is_msh ? "a .msh file has its own order; take this key out"
                         : "such a file has its own order; take this key out");
@@ -121,6 +114,8 @@ mesh::MeshOptions read_file(const Table& mesh, Size size, const std::string& sce
                  "such a file has no surfaces or curves, only its own groups");
   check_only_for(mesh, "element_size", is_step, "is for .step files; a .geo has its own sizes");
   check_only_for(mesh, "parameters", is_geo, "only a .geo file has parameters");
+  check_only_for(mesh, "doubled_elements", mesh::is_deck(source),
+                 "is for decks; elsewhere they are one element in several groups");
   check_only_for(mesh, "length_unit", !is_step, "a .step file tells its own unit");
   if (mesh.has("element_order")) options.element_order = read_element_order(mesh);
   if (is_step) options.element_size = read_size_of_step(mesh, size);
@@ -129,6 +124,7 @@ mesh::MeshOptions read_file(const Table& mesh, Size size, const std::string& sce
   if (mesh.has("groups")) options.groups = read_entity_groups(mesh);
   options.sectors = read_sectors(mesh);
   if (mesh.has("coincident_nodes")) options.coincident_nodes = read_coincident_nodes(mesh);
+  if (mesh.has("doubled_elements")) options.doubled_elements = read_doubled_elements(mesh);
   if (mesh.has("merge_tolerance")) options.merge_tolerance = mesh.number("merge_tolerance");
   std::vector<std::string> taken;
   for (const mesh::EntityGroup& group : options.groups) taken.push_back(group.name);

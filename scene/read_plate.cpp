@@ -50,20 +50,28 @@ std::optional<double> read_loss_factor(const Table& section)
   return section.number("loss_factor");
 }
 
-plate::Coupling read_coupling(const Table& table, const std::vector<std::string>& groups)
+/// @param couplings  names of all couplings
+plate::Coupling read_coupling(const Table& table, const std::vector<std::string>& groups,
+                              const std::vector<std::string>& couplings)
 {
   using plate::CouplingKind;
   const auto kind = table.choice<CouplingKind>("type", {{"rigid", CouplingKind::rigid},
                                                         {"averaging", CouplingKind::averaging},
                                                         {"link", CouplingKind::link}});
   plate::Coupling coupling{.name = {}, .group = read_group(table, groups), .kind = kind};
-  if (kind != CouplingKind::link) {
+  const bool is_rigid = kind == CouplingKind::rigid;
+  if (kind == CouplingKind::averaging || (is_rigid && !table.has("to"))) {
     coupling.name = table.text("name");
+    if (table.has("at")) coupling.at = read_vector(table, "at");
     return coupling;
   }
+  for (const char* key : {"name", "at"})
+    if (table.has(key)) table.refuse(key, "is of a reference node; with `to` there is none");
   coupling.to = table.text("to");
-  if (!groups.empty() && !contains(groups, coupling.to))
-    table.refuse("to", no_such_name("group", coupling.to, groups));
+  const bool is_there =
+      contains(groups, coupling.to) || (is_rigid && contains(couplings, coupling.to));
+  if (!groups.empty() && !is_there)
+    table.refuse("to", no_such_name(is_rigid ? "group or coupling" : "group", coupling.to, groups));
   if (coupling.to == coupling.group) table.refuse("to", "must be another group");
   return coupling;
 }
@@ -209,14 +217,17 @@ std::vector<plate::Coupling> read_couplings(const Table& root, const Scene& scen
   taken.insert(rings.begin(), rings.end());
   std::vector<plate::Coupling> couplings;
   if (!root.has("coupling")) return couplings;
+  std::vector<std::string> names;
+  for (const Table& table : root.tables("coupling"))
+    if (table.has("name")) names.push_back(table.text("name"));
   for (const Table& table : root.tables("coupling")) {
-    couplings.push_back(read_coupling(table, groups));
+    couplings.push_back(read_coupling(table, groups, names));
     if (couplings.back().kind == plate::CouplingKind::averaging && scene.components.size() != 6) {
       table.refuse("type",
                    "an average needs all six DOFs of each node; use \"rigid\", or take "
                    "[model] out");
     }
-    if (couplings.back().kind == plate::CouplingKind::link) continue;
+    if (!couplings.back().has_reference_node()) continue;
     check_coupling_name(table, taken);
     taken.insert(couplings.back().name);
   }

@@ -30,12 +30,11 @@ void check_interface_node(const Table& interface, std::size_t i, const Scene& sc
     interface.refuse_element("nodes", i, "is named twice");
   for (const plate::Coupling& coupling : scene.couplings) {
     if (coupling.group != name || coupling.kind == plate::CouplingKind::averaging) continue;
-    const bool link = coupling.kind == plate::CouplingKind::link;
     interface.refuse_element(
         "nodes", i,
-        link ? fmt::format("follows \"{0}\"; name \"{0}\" instead", coupling.to)
-             : fmt::format("follows the reference node \"{0}\"; name \"{0}\" instead",
-                           coupling.name));
+        coupling.has_reference_node()
+            ? fmt::format("follows the reference node \"{0}\"; name \"{0}\" instead", coupling.name)
+            : fmt::format("follows \"{0}\"; name \"{0}\" instead", coupling.to));
   }
   // The groups of a mesh file are known only once it is read.
   const std::vector<std::string> names = attachable_names(scene);

@@ -112,6 +112,11 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
   for (const plate::BeamSection& beam : scene.beams) scene.mesh.line_groups.push_back(beam.group);
   for (const auto& shell : scene.sections) scene.mesh.shell_groups.push_back(shell.group);
   scene.couplings = read_couplings(root, scene);
+  for (const plate::Coupling& coupling : scene.couplings) {
+    if (coupling.kind == plate::CouplingKind::averaging) continue;
+    scene.mesh.coupled_groups.push_back(coupling.group);
+    if (!coupling.to.empty()) scene.mesh.coupled_groups.push_back(coupling.to);
+  }
   scene.masses = read_masses(root, scene);
   scene.springs = read_springs(root, scene);
   read_deviations(root, scene);
@@ -192,12 +197,17 @@ void refuse_other_files(const std::string& path)
   const std::string extension = fs::path(path).extension().string();
   if (extension == ".h5")
     refuse("is a result file, but a scene file (TOML) is needed; `info` prints what it contains");
-  if (contains({".msh", ".geo", ".step", ".stp"}, extension))
-    refuse("is a mesh, but a scene file (TOML) is needed; name the mesh there as `file` of [mesh]");
-  if (contains({".bdf", ".nas", ".dat", ".inp", ".unv", ".vtk"}, extension)) {
+  if (mesh::is_deck(path)) {
     refuse(
-        "is a mesh of another program, but a scene file (TOML) is needed; name the mesh there as "
-        "`file` of [mesh] (a .vtk after `gmsh FILE -save -o mesh.msh`)");
+        "is a deck of another program, but a scene file (TOML) is needed; `chladni import` writes "
+        "one");
+  }
+  if (mesh::mesh_source(path))
+    refuse("is a mesh, but a scene file (TOML) is needed; name the mesh there as `file` of [mesh]");
+  if (extension == ".vtk") {
+    refuse(
+        "is a mesh of another program, but a scene file (TOML) is needed; name it there as `file` "
+        "of [mesh] after `gmsh FILE -save -o mesh.msh`");
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -23,6 +24,7 @@ constexpr std::array passed_over{82, 151};
 /// One dataset 55.
 struct FileShape {
   std::size_t line;
+  std::string why_not = {};  ///< what it is where it is no mode; the rest is empty then
   std::string name;
   double f_Hz;
   std::vector<std::int64_t> nodes;
@@ -31,6 +33,7 @@ struct FileShape {
 
 /// What record 6 says of the values.
 struct ShapeKind {
+  std::string why_not = {};  ///< what it is where it is no mode; the rest is empty then
   bool is_complex_mode, has_complex_values;
   std::size_t n_values;  ///< of each node
 };
@@ -41,8 +44,12 @@ ShapeKind read_kind(RecordReader& records)
   const auto refuse = [&](const std::string& what) { records.fail("record 6: " + what); };
   const std::int64_t analysis = fields[1], characteristic = fields[2], type = fields[4],
                      n = fields[5];
-  if (analysis != 2 && analysis != 3)
-    refuse(fmt::format("analysis type {}; modes are 2 (normal) or 3 (complex)", analysis));
+  if (analysis != 2 && analysis != 3) {
+    return {.why_not = fmt::format("of analysis type {}, where modes have 2 or 3", analysis),
+            .is_complex_mode = false,
+            .has_complex_values = false,
+            .n_values = 0};
+  }
   if (!(characteristic == 2 && n == 3) && !(characteristic == 3 && n == 6)) {
     refuse(
         fmt::format("data characteristic {} with {} values for each node; shapes have 2 with 3 "
@@ -51,7 +58,9 @@ ShapeKind read_kind(RecordReader& records)
   }
   if (type != 2 && type != 5)
     refuse(fmt::format("data type {}; shapes are 2 (real) or 5 (complex)", type));
-  return {analysis == 3, type == 5, static_cast<std::size_t>(n)};
+  return {.is_complex_mode = analysis == 3,
+          .has_complex_values = type == 5,
+          .n_values = static_cast<std::size_t>(n)};
 }
 
 /// Records 7 and 8: the numbers of integers and reals that follow, and these.
@@ -74,6 +83,8 @@ FileShape read_shape(RecordReader& records, const UniversalDataset& dataset)
     if (k == 0) shape.name = line.substr(0, line.find_last_not_of(" \r") + 1);
   }
   const ShapeKind kind = read_kind(records);
+  shape.why_not = kind.why_not;
+  if (!shape.why_not.empty()) return shape;
   shape.f_Hz = read_frequency(records, kind);
   if (!(shape.f_Hz >= 0.0)) records.fail("record 8: the frequency is negative");
   const std::size_t parts = kind.has_complex_values ? 2 : 1;
@@ -95,6 +106,7 @@ FileShape read_shape(RecordReader& records, const UniversalDataset& dataset)
 struct Contents {
   UniversalGeometry geometry;
   std::vector<FileShape> shapes;
+  std::map<std::string, int> left_out;  ///< what it is, and how often
 };
 
 Contents contents_of(const std::filesystem::path& path)
@@ -102,14 +114,28 @@ Contents contents_of(const std::filesystem::path& path)
   Contents contents;
   for (const UniversalDataset& dataset : read_universal_datasets(path)) {
     RecordReader records(path, dataset);
-    if (dataset.binary) records.fail("is binary; write the file in ASCII");
-    if (contents.geometry.take(records, dataset)) continue;
-    if (dataset.number == 55)
-      contents.shapes.push_back(read_shape(records, dataset));
-    else if (std::ranges::find(passed_over, dataset.number) == passed_over.end())
-      records.fail("is none that this program reads: modes (55), nodes (15, 2411) and units (164)");
+    if (dataset.number == 55 && dataset.binary) {
+      ++contents.left_out["dataset 55 in binary, of which only ASCII is read"];
+    } else if (dataset.number == 55) {
+      FileShape shape = read_shape(records, dataset);
+      if (shape.why_not.empty())
+        contents.shapes.push_back(std::move(shape));
+      else
+        ++contents.left_out["dataset 55 " + shape.why_not];
+    } else if (std::ranges::find(passed_over, dataset.number) == passed_over.end() &&
+               (dataset.binary || !contents.geometry.take(records, dataset))) {
+      ++contents.left_out[fmt::format("dataset {}", dataset.number)];
+    }
   }
   return contents;
+}
+
+std::string list_left_out(const Contents& contents)
+{
+  std::string text;
+  for (const auto& [what, n] : contents.left_out)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, what);
+  return text;
 }
 
 /// The node of the first shape, in metres and in the axes of the model.
@@ -136,8 +162,11 @@ MeasuredNode node_of(const std::filesystem::path& path, const UniversalGeometry&
 MeasuredModes read_measured_modes(const std::filesystem::path& path, std::optional<double> metres)
 {
   const Contents contents = contents_of(path);
-  if (contents.shapes.empty())
-    throw Error(fmt::format("{}: has no mode shapes (dataset 55)", path.string()));
+  const std::string left_out = list_left_out(contents);
+  if (contents.shapes.empty()) {
+    throw Error(fmt::format("{}: has no mode shapes (dataset 55){}{}", path.string(),
+                            left_out.empty() ? "" : "; it has ", left_out));
+  }
   const std::optional<double> unit =
       contents.geometry.units() ? std::optional(contents.geometry.units()->metres) : metres;
   if (!unit) {
@@ -150,6 +179,8 @@ MeasuredModes read_measured_modes(const std::filesystem::path& path, std::option
       .f_Hz = Eigen::VectorXd(std::ssize(contents.shapes)),
       .names = {},
       .shapes = Eigen::MatrixXcd(3 * std::ssize(nodes), std::ssize(contents.shapes))};
+  if (!left_out.empty())
+    modes.notes.push_back(fmt::format("{}: left out: {}", path.string(), left_out));
   for (const std::int64_t number : nodes)
     modes.nodes.push_back(node_of(path, contents.geometry, number, *unit));
   for (Index k = 0; k < modes.f_Hz.size(); ++k) {

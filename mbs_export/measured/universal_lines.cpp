@@ -17,6 +17,14 @@ bool is_delimiter(const std::string& line)
   return trimmed(line) == "-1" && line.size() <= 80;
 }
 
+/// Whether a line has nothing but numbers, as those of datasets. Words of people stand between
+/// datasets too.
+bool is_of_numbers(const std::string& line)
+{
+  return line.find_first_not_of("0123456789+-.eEdD \t\r") == std::string::npos &&
+         line.find_first_of("0123456789") != std::string::npos;
+}
+
 /// The number in the second line of a dataset.
 int dataset_number(const std::filesystem::path& path, std::size_t at, const std::string& line)
 {
@@ -120,8 +128,9 @@ class DatasetReader {
     while (next_line())
       if (is_delimiter(line_))
         datasets.push_back(read_dataset());
-      else if (!trimmed(line_).empty())
+      else if (is_of_numbers(line_))
         fail_at(path_, at_, "expected a line of -1, which begins a dataset of a universal file");
+    if (datasets.empty()) fail_at(path_, 1, "is no universal file: no line of -1 begins a dataset");
     if (file_.bad() || !file_.eof()) throw Error(fmt::format("{}: cannot be read", path_.string()));
     return datasets;
   }

@@ -16,11 +16,11 @@ struct AbaqusSets {
 /// Reads nodes, elements and groups. The elements of a section get the group of its element set;
 /// other groups have the names of their sets, with NAME_nodes for a node set that shares its name
 /// with an element set. A surface gives the group `surface_NAME` of its nodes, a node that a
-/// boundary condition names by its number gives `boundary_17`.
+/// boundary condition names by its number gives `boundary_17`. Reads couplings too.
 /// @throws chladni::Error naming line and keyword of a mistake, and of every unknown keyword.
 Deck abaqus_deck(std::span<const Keyword> keywords);
 
-/// Reads sections, materials, couplings, and the supports before the first step.
+/// Reads sections, materials and supports, which of the steps only the first one has.
 /// @throws chladni::Error naming line and keyword of anything that a scene cannot express.
 Declarations abaqus_declarations(std::span<const Keyword> keywords, const Deck& deck,
                                  const DeckUnits& units);

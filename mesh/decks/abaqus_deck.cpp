@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "mesh/decks/abaqus.hpp"
+#include "mesh/decks/holders.hpp"
 
 namespace chladni::mesh {
 namespace {
@@ -39,13 +40,33 @@ class Reader {
     find_section_sets();
     for (const Keyword& keyword : abaqus_model(keywords_)) read(keyword);
     add_sets();
-    if (abaqus_model(keywords_).size() < keywords_.size())
-      deck_.notes.emplace_back("steps are left out, with the boundary conditions in them");
+    couple();
+    note_steps();
     return std::move(deck_);
   }
 
  private:
   using ReadKeyword = void (Reader::*)(const Keyword&);
+
+  void note_steps()
+  {
+    const std::size_t n_of_model = abaqus_model(keywords_).size();
+    if (n_of_model == keywords_.size()) return;
+    deck_.notes.emplace_back("steps are left out, but for the supports of the first one");
+    for (const Keyword& keyword : keywords_.subspan(n_of_model))
+      if (keyword.name == "BOUNDARY") {
+        deck_.notes.push_back(
+            fmt::format("{}: *BOUNDARY of a later step is left out", keyword.place));
+      }
+  }
+
+  void instance(const Keyword& keyword)
+  {
+    if (keyword.parameter("OFFSET") == "0") return;
+    deck_.notes.push_back(
+        fmt::format("the nodes and elements of the instance \"{}\" are numbered from {} on",
+                    keyword.parameter("NAME"), keyword.parameter("OFFSET")));
+  }
 
   void read(const Keyword& keyword)
   {
@@ -53,6 +74,7 @@ class Reader {
         {"NODE", &Reader::nodes},
         {"ELEMENT", &Reader::elements},
         {"SURFACE", &Reader::surface},
+        {"INSTANCE", &Reader::instance},
         {"BOUNDARY", &Reader::boundary}};
     // Read elsewhere, or nothing to a mesh.
     static const std::set<std::string> known{
@@ -61,12 +83,6 @@ class Reader {
     const auto reader = readers.find(keyword.name);
     if (reader != readers.end()) return (this->*reader->second)(keyword);
     if (known.contains(keyword.name)) return;
-    for (const char* part : {"PART", "INSTANCE", "ASSEMBLY"}) {
-      if (keyword.name != part) continue;
-      keyword.refuse(
-          "only flat input files are read; write one, in Abaqus/CAE by "
-          "mdb.models[NAME].setValues(noPartsInputFile=ON)");
-    }
     keyword.refuse("this keyword is not known; take it out if the model is the same without it");
   }
 
@@ -155,6 +171,7 @@ class Reader {
     } else {
       deck_.elements.push_back(surface_element(number, nodes, group));
     }
+    deck_.elements.back().place = row.place;
   }
 
   void surface(const Keyword& keyword)
@@ -171,23 +188,97 @@ class Reader {
     }
   }
 
-  /// The nodes of shells whose one side or other is meant.
+  /// The elements that a row of a surface names by a set or by a number.
+  std::vector<std::int64_t> elements_of(const Keyword& keyword, const KeywordRow& row) const
+  {
+    const std::string& name = row.fields.front();
+    if (keyword.is_integer(name)) return {keyword.integer(row, 0, "number of an element")};
+    const auto set = sets_.elements.find(name);
+    if (set == sets_.elements.end())
+      keyword.refuse(row, fmt::format("there is no element set \"{}\"", name));
+    return set->second;
+  }
+
+  /// The nodes of shells whose one side or other is meant, or one of whose edges, E1 and so on.
   std::vector<std::int64_t> nodes_of_faces(const Keyword& keyword, const KeywordRow& row) const
   {
     const std::string_view side = Keyword::field(row, 1);
-    if (!side.empty() && side != "SPOS" && side != "SNEG")
-      keyword.refuse(row, fmt::format("{}: only whole shells, SPOS or SNEG, are known", side));
-    const auto set = sets_.elements.find(row.fields.front());
-    if (set == sets_.elements.end())
-      keyword.refuse(row, fmt::format("there is no element set \"{}\"", row.fields.front()));
+    const bool is_edge = side.size() == 2 && side[0] == 'E' && side[1] >= '1' && side[1] <= '4';
+    if (!side.empty() && side != "SPOS" && side != "SNEG" && !is_edge) {
+      keyword.refuse(row, fmt::format("{}: only sides of shells, SPOS or SNEG, and their edges, E1 "
+                                      "to E4, are known",
+                                      side));
+    }
     std::vector<std::int64_t> nodes;
-    for (const std::int64_t element : set->second) {
+    for (const std::int64_t element : elements_of(keyword, row)) {
       const auto found = nodes_of_.find(element);
       if (found == nodes_of_.end())
         keyword.refuse(row, fmt::format("there is no element {}", element));
-      nodes.insert(nodes.end(), found->second.begin(), found->second.end());
+      const std::vector<std::int64_t> of_edge =
+          is_edge ? nodes_of_edge(found->second, std::size_t(side[1] - '1')) : found->second;
+      if (of_edge.empty())
+        keyword.refuse(row, fmt::format("element {} has no edge {}", element, side));
+      nodes.insert(nodes.end(), of_edge.begin(), of_edge.end());
     }
     return nodes;
+  }
+
+  /// @param nodes  of a shell, corners first, then the middles of the edges
+  static std::vector<std::int64_t> nodes_of_edge(const std::vector<std::int64_t>& nodes,
+                                                 std::size_t edge)
+  {
+    const bool has_middles = nodes.size() > 4;
+    const std::size_t n_corners = has_middles ? nodes.size() / 2 : nodes.size();
+    if (edge >= n_corners) return {};
+    std::vector<std::int64_t> found{nodes[edge], nodes[(edge + 1) % n_corners]};
+    if (has_middles) found.push_back(nodes[n_corners + edge]);
+    return found;
+  }
+
+  /// Couplings, whose kind stands in the keyword behind.
+  void couple()
+  {
+    const std::span<const Keyword> model = abaqus_model(keywords_);
+    for (std::size_t i = 0; i < model.size(); ++i)
+      if (model[i].name == "COUPLING")
+        coupling(model[i], i + 1 < model.size() ? &model[i + 1] : nullptr);
+    add_leaders(deck_);
+  }
+
+  void coupling(const Keyword& keyword, const Keyword* kind)
+  {
+    keyword.expect_only({"CONSTRAINT NAME", "REF NODE", "SURFACE"});
+    const bool averages = kind != nullptr && kind->name == "DISTRIBUTING";
+    if (kind == nullptr || (!averages && kind->name != "KINEMATIC"))
+      keyword.refuse("has neither *KINEMATIC nor *DISTRIBUTING behind it");
+    kind->expect_only(averages ? std::set<std::string>{"WEIGHTING METHOD"}
+                               : std::set<std::string>{});
+    check_components(*kind);
+    const std::vector<std::int64_t> nodes =
+        abaqus_nodes(keyword, {keyword.place, {}}, keyword.parameter("REF NODE"), sets_);
+    if (nodes.size() != 1) keyword.refuse("its reference is not one node");
+    const std::string group = "surface_" + keyword.parameter("SURFACE");
+    if (std::ranges::find(deck_.groups, group, &DeckGroup::name) == deck_.groups.end())
+      keyword.refuse(fmt::format("there is no surface \"{}\"", keyword.parameter("SURFACE")));
+    deck_.couplings.push_back({.entry = fmt::format("{}: *COUPLING", keyword.place),
+                               .reference = nodes.front(),
+                               .group = group,
+                               .averages = averages});
+  }
+
+  /// All six, which need no data line.
+  static void check_components(const Keyword& kind)
+  {
+    std::vector<bool> found(6, kind.rows.empty());
+    for (const KeywordRow& row : kind.rows) {
+      const std::int64_t first = kind.integer(row, 0, "component");
+      const bool is_one = Keyword::field(row, 1).empty();
+      const std::int64_t last = is_one ? first : kind.integer(row, 1, "component");
+      for (std::int64_t c = first; c <= std::min<std::int64_t>(last, 6); ++c)
+        found[std::size_t(c) - 1] = true;
+    }
+    if (std::ranges::find(found, false) != found.end())
+      kind.refuse("couples not all components 1 to 6; a scene's coupling does");
   }
 
   /// A node that is named by its number gets a group.

@@ -79,8 +79,9 @@ class Declarer {
       if (keyword.name == "MATERIAL") material(i);
       if (keyword.name == "SHELL SECTION") shell(keyword);
       if (keyword.name == "BEAM SECTION") beam(keyword);
-      if (keyword.name == "COUPLING") coupling(i);
     }
+    check_densities();
+    declare_couplings(deck, units_, holders_, all_);
     for (const Keyword& keyword : model_)
       if (keyword.name == "BOUNDARY") boundary(keyword);
     for (const DeckGroup& group : deck.groups) {
@@ -95,12 +96,12 @@ class Declarer {
 
  private:
   /// What `make` returns; its errors get line and keyword.
-  static auto told(const Keyword& keyword, int line, auto&& make)
+  static auto told(const Keyword& keyword, const std::string& place, auto&& make)
   {
     try {
       return make();
     } catch (const Error& error) {
-      keyword.refuse({line, {}}, error.what());
+      keyword.refuse({place, {}}, error.what());
     }
   }
 
@@ -128,6 +129,24 @@ class Declarer {
     }
     if (!is_elastic) keyword.refuse(fmt::format("{} has no *ELASTIC", material.name));
     all_.materials.push_back(material);
+    keyword_of_[material.name] = &keyword;
+  }
+
+  /// Materials without a density are no error as long as no element is of them.
+  void check_densities()
+  {
+    std::erase_if(all_.materials, [&](const DeclaredMaterial& material) {
+      if (material.density > 0.0) return false;
+      const auto is_of_it = [&](const auto& section) { return section.material == material.name; };
+      if (std::ranges::any_of(all_.shells, is_of_it) || std::ranges::any_of(all_.beams, is_of_it)) {
+        keyword_of_.at(material.name)
+            ->refuse(fmt::format("{} has no *DENSITY, without which there are no natural "
+                                 "frequencies; give it one, "
+                                 "a small one to what is to have no mass",
+                                 material.name));
+      }
+      return true;
+    });
   }
 
   void shell(const Keyword& keyword)
@@ -140,7 +159,7 @@ class Declarer {
       const std::string& offset = keyword.parameter("OFFSET");
       of_thickness = offset == "SPOS"   ? 0.5
                      : offset == "SNEG" ? -0.5
-                                        : keyword.real({keyword.line, {offset}}, 0, "OFFSET");
+                                        : keyword.real({keyword.place, {offset}}, 0, "OFFSET");
     }
     all_.shells.push_back({.group = keyword.parameter("ELSET"),
                            .material = keyword.parameter("MATERIAL"),
@@ -169,46 +188,6 @@ class Declarer {
                           .orientation = unit(n1)});
   }
 
-  void coupling(std::size_t at)
-  {
-    const Keyword& keyword = model_[at];
-    keyword.expect_only({"CONSTRAINT NAME", "REF NODE", "SURFACE"});
-    const Keyword* kind = at + 1 < model_.size() ? &model_[at + 1] : nullptr;
-    const bool averages = kind != nullptr && kind->name == "DISTRIBUTING";
-    if (kind == nullptr || (!averages && kind->name != "KINEMATIC"))
-      keyword.refuse("has neither *KINEMATIC nor *DISTRIBUTING behind it");
-    kind->expect_only(averages ? std::set<std::string>{"WEIGHTING METHOD"}
-                               : std::set<std::string>{});
-    check_components(*kind);
-    const std::string& reference = keyword.parameter("REF NODE");
-    const std::vector<std::int64_t> nodes =
-        abaqus_nodes(keyword, {keyword.line, {}}, reference, sets_);
-    if (nodes.size() != 1) keyword.refuse("its reference is not one node");
-    const std::string name =
-        told(keyword, keyword.line, [&] { return holders_.add_reference(nodes.front()); });
-    all_.notes.push_back(fmt::format(
-        "*COUPLING in line {}: in the scene node {} stands at the centre of the nodes{}",
-        keyword.line, nodes.front(),
-        averages ? ", each of which counts as the area that it stands for" : ""));
-    all_.couplings.push_back(
-        {.name = name, .group = "surface_" + keyword.parameter("SURFACE"), .averages = averages});
-  }
-
-  /// All six, which need no data line.
-  static void check_components(const Keyword& kind)
-  {
-    std::vector<bool> found(6, kind.rows.empty());
-    for (const KeywordRow& row : kind.rows) {
-      const std::int64_t first = kind.integer(row, 0, "component");
-      const bool is_one = Keyword::field(row, 1).empty();
-      const std::int64_t last = is_one ? first : kind.integer(row, 1, "component");
-      for (std::int64_t c = first; c <= std::min<std::int64_t>(last, 6); ++c)
-        found[std::size_t(c) - 1] = true;
-    }
-    if (std::ranges::find(found, false) != found.end())
-      kind.refuse("couples not all components 1 to 6; a scene's coupling does");
-  }
-
   static std::vector<int> components(const Keyword& keyword, const KeywordRow& row)
   {
     if (const auto named = components_named(Keyword::field(row, 1))) return *named;
@@ -233,8 +212,10 @@ class Declarer {
           keyword.is_integer(name) ? "boundary_" + name : name_of_node_set(name, sets_);
       const std::vector<std::int64_t> nodes = abaqus_nodes(keyword, row, name, sets_);
       const std::vector<int> held = components(keyword, row);
+      const std::vector<std::int64_t> supported =
+          supported_nodes(holders_, row.place + ": *BOUNDARY", nodes, all_);
       for (const std::string& holder :
-           told(keyword, row.line, [&] { return holders_.of(group, nodes); }))
+           told(keyword, row.place, [&] { return holders_.of(group, supported); }))
         add_support(all_, holder, held);
     }
   }
@@ -243,6 +224,7 @@ class Declarer {
   AbaqusSets sets_;
   DeckUnits units_;
   Holders holders_;
+  std::map<std::string, const Keyword*> keyword_of_;  ///< by the name of the material
   Declarations all_;
 };
 

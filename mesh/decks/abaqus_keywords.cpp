@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
+#include <span>
 
 #include "common/error.hpp"
 #include "mesh/decks/deck_text.hpp"
@@ -20,18 +22,132 @@ std::string unquoted(std::string text)
   return text;
 }
 
-Keyword keyword_of(const std::string& line, int number)
+/// Blanks in a keyword are one space each.
+std::string with_single_blanks(const std::string& text)
 {
-  const std::vector<std::string> words = cut_at_commas(line.substr(1));
-  Keyword keyword{.name = words.front(), .line = number, .parameters = {}, .rows = {}};
-  for (std::size_t i = 1; i < words.size(); ++i) {
-    if (words[i].empty()) continue;
-    const std::size_t equals = std::min(words[i].find('='), words[i].size());
+  std::string words;
+  for (const char c : text)
+    if (c != ' ' && c != '\t')
+      words += c;
+    else if (words.empty() || words.back() != ' ')
+      words += ' ';
+  return words;
+}
+
+void add_parameters(Keyword& keyword, std::span<const std::string> words)
+{
+  for (const std::string& word : words) {
+    if (word.empty()) continue;
+    const std::size_t equals = std::min(word.find('='), word.size());
+    const std::string_view text(word);
     const std::string value =
-        equals < words[i].size() ? unquoted(capitals(words[i].substr(equals + 1))) : "";
-    keyword.parameters[capitals(words[i].substr(0, equals))] = value;
+        equals < word.size() ? unquoted(capitals(trimmed(text.substr(equals + 1)))) : "";
+    keyword.parameters[capitals(with_single_blanks(trimmed(text.substr(0, equals))))] = value;
   }
+}
+
+Keyword keyword_of(const DeckLine& line, const std::string& text)
+{
+  const std::vector<std::string> words = cut_at_commas(std::string_view(text).substr(1));
+  Keyword keyword{.name = capitals(with_single_blanks(words.front())),
+                  .place = line.place,
+                  .parameters = {},
+                  .rows = {}};
+  add_parameters(keyword, std::span(words).subspan(1));
   return keyword;
+}
+
+/// Whether a line behind a keyword that ends with a comma has more of its parameters; some programs
+/// write the comma without any.
+bool has_parameters(const std::string& line)
+{
+  static const std::set<std::string> flags{"GENERATE",     "INTERNAL", "UNSORTED", "COMPOSITE",
+                                           "PERTURBATION", "NLGEOM",   "SYMMETRIC"};
+  return std::ranges::all_of(cut_at_commas(line), [](const std::string& word) {
+    return word.empty() || word.find('=') != std::string::npos || flags.contains(capitals(word));
+  });
+}
+
+KeywordRow row_of(const DeckLine& line)
+{
+  std::vector<std::string> fields = cut_at_commas(line.text);
+  for (std::string& field : fields) field = unquoted(capitals(field));
+  return {.place = line.place, .fields = std::move(fields)};
+}
+
+/// The file that *INCLUDE, INPUT = FILE names.
+std::string included_file(std::string_view line)
+{
+  const std::string text = trimmed(line);
+  if (text.size() < 2 || text.front() != '*' || text[1] == '*') return "";
+  const std::vector<std::string> words = cut_at_commas(std::string_view(text).substr(1));
+  if (capitals(words.front()) != "INCLUDE") return "";
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos) continue;
+    if (capitals(trimmed(std::string_view(word).substr(0, equals))) == "INPUT")
+      return unquoted(trimmed(std::string_view(word).substr(equals + 1)));
+  }
+  return "";
+}
+
+std::vector<Keyword> parsed(const DeckLines& lines)
+{
+  std::vector<Keyword> keywords;
+  bool may_go_on = false;  // the line of a keyword that ends with a comma
+  for (const DeckLine& line : lines) {
+    const std::string text = trimmed(line.text);
+    if (text.empty() || text.starts_with("**")) continue;
+    if (text.starts_with('*')) {
+      keywords.push_back(keyword_of(line, text));
+    } else if (keywords.empty()) {
+      throw Error(fmt::format("{}: stands before the first keyword", line.place));
+    } else if (may_go_on && has_parameters(text)) {
+      add_parameters(keywords.back(), cut_at_commas(text));
+    } else {
+      keywords.back().rows.push_back(row_of(line));
+      may_go_on = false;
+      continue;
+    }
+    may_go_on = text.back() == ',';
+  }
+  return keywords;
+}
+
+/// A support of the first step, as one of the model.
+Keyword without_step(Keyword keyword, bool has_supports_before)
+{
+  if (keyword.name != "BOUNDARY") return keyword;
+  if (has_supports_before && keyword.has("OP") && keyword.parameter("OP") == "NEW") {
+    keyword.refuse(
+        "OP = NEW takes away the supports before the step; keep those that the analysis has");
+  }
+  keyword.parameters.erase("OP");
+  return keyword;
+}
+
+/// Pre-processors write supports into the first step; they are the model's.
+std::vector<Keyword> with_first_step(std::vector<Keyword> keywords)
+{
+  const auto step = std::ranges::find(keywords, "STEP", &Keyword::name);
+  const auto end = std::find_if(step, keywords.end(),
+                                [](const Keyword& keyword) { return keyword.name == "END STEP"; });
+  const bool has_supports = std::any_of(
+      keywords.begin(), step, [](const Keyword& keyword) { return keyword.name == "BOUNDARY"; });
+  std::vector<Keyword> model(keywords.begin(), step), of_step;
+  for (auto keyword = step; keyword != end; ++keyword) {
+    if (keyword->name == "MODEL CHANGE")
+      keyword->refuse("takes elements out or in; write the model as it is in the analysis");
+    const bool is_of_model =
+        keyword->name == "BOUNDARY" || keyword->name == "NSET" || keyword->name == "ELSET";
+    if (is_of_model)
+      model.push_back(without_step(*keyword, has_supports));
+    else
+      of_step.push_back(*keyword);
+  }
+  std::ranges::move(of_step, std::back_inserter(model));
+  std::move(end, keywords.end(), std::back_inserter(model));
+  return model;
 }
 
 }  // namespace
@@ -53,12 +169,12 @@ void Keyword::expect_only(const std::set<std::string>& known) const
 
 void Keyword::refuse(std::string_view why) const
 {
-  throw Error(fmt::format("line {}: *{}: {}", line, name, why));
+  throw Error(fmt::format("{}: *{}: {}", place, name, why));
 }
 
 void Keyword::refuse(const KeywordRow& row, std::string_view why) const
 {
-  throw Error(fmt::format("line {}: *{}: {}", row.line, name, why));
+  throw Error(fmt::format("{}: *{}: {}", row.place, name, why));
 }
 
 std::string_view Keyword::field(const KeywordRow& row, std::size_t i)
@@ -100,31 +216,9 @@ double Keyword::real_or(const KeywordRow& row, std::size_t i, std::string_view w
   return field(row, i).empty() ? otherwise : real(row, i, what);
 }
 
-std::vector<Keyword> abaqus_keywords(const std::string& text)
+std::vector<Keyword> abaqus_keywords(const std::string& text, const ReadIncluded& read)
 {
-  std::vector<Keyword> keywords;
-  bool goes_on = false;  // the line of a keyword that ends with a comma
-  for_each_line(text, 0, [&](std::string_view whole, int number) {
-    const std::string line = trimmed(whole);
-    if (line.empty() || line.starts_with("**")) return true;
-    if (goes_on) {
-      const Keyword more = keyword_of("*," + line, number);
-      keywords.back().parameters.insert(more.parameters.begin(), more.parameters.end());
-    } else if (line.starts_with('*')) {
-      keywords.push_back(keyword_of(line, number));
-      keywords.back().name = capitals(keywords.back().name);
-    } else if (keywords.empty()) {
-      throw Error(fmt::format("line {}: stands before the first keyword", number));
-    } else {
-      std::vector<std::string> fields = cut_at_commas(line);
-      for (std::string& field : fields) field = unquoted(capitals(field));
-      keywords.back().rows.push_back({.line = number, .fields = std::move(fields)});
-      return true;
-    }
-    goes_on = line.back() == ',';
-    return true;
-  });
-  return keywords;
+  return flat_keywords(with_first_step(parsed(DeckLines(text, included_file, read))));
 }
 
 }  // namespace chladni::mesh

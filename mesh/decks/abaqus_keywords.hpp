@@ -7,11 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "mesh/decks/deck_text.hpp"
+
 namespace chladni::mesh {
 
 /// A data line of a keyword, in capitals, split at its commas.
 struct KeywordRow {
-  int line;
+  std::string place;  ///< "line 7"
   std::vector<std::string> fields;
 };
 
@@ -19,7 +21,7 @@ struct KeywordRow {
 /// since case has no meaning there.
 struct Keyword {
   std::string name;
-  int line;
+  std::string place;  ///< "line 7"
   /// Values by name; empty for a parameter without a value.
   std::map<std::string, std::string> parameters;
   std::vector<KeywordRow> rows;
@@ -44,8 +46,18 @@ struct Keyword {
                  double otherwise) const;
 };
 
-/// The keywords of an input file, without comments.
-/// @throws chladni::Error naming a line that is neither a keyword nor its data.
-std::vector<Keyword> abaqus_keywords(const std::string& text);
+/// The keywords of an input file, without comments, as those of a flat model: parts stand where
+/// their instances are (`flat_keywords`), and the supports and sets of the first step before it.
+/// @throws chladni::Error naming a line that is neither a keyword nor its data, or that cannot be
+///         included.
+std::vector<Keyword> abaqus_keywords(const std::string& text,
+                                     const ReadIncluded& read = refuse_included);
+
+/// Puts the keywords of each part in the place of its instances, with their numbers and names:
+/// "A-1.HELD" is the set HELD of the instance A-1, and the numbers of the second instance follow a
+/// power of ten beyond all numbers, as those of the assembly follow the last one's. Of each
+/// instance a keyword INSTANCE stays with NAME and OFFSET. Other keywords pass.
+/// @throws chladni::Error naming an instance whose part is missing, and parts that do not end.
+std::vector<Keyword> flat_keywords(std::vector<Keyword> keywords);
 
 }  // namespace chladni::mesh

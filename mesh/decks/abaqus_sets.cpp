@@ -97,7 +97,7 @@ std::vector<std::int64_t> abaqus_nodes(const Keyword& keyword, const KeywordRow&
                                        std::string_view name, const AbaqusSets& sets)
 {
   if (keyword.is_integer(name))
-    return {keyword.integer({row.line, {std::string(name)}}, 0, "node")};
+    return {keyword.integer({row.place, {std::string(name)}}, 0, "node")};
   const auto set = sets.nodes.find(std::string(name));
   if (set == sets.nodes.end())
     keyword.refuse(row, fmt::format("there is no node set \"{}\"", name));

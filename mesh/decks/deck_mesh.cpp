@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <unordered_map>
 
 #include "common/error.hpp"
 #include "mesh/complete_elements.hpp"
 #include "mesh/decks/deck.hpp"
+#include "mesh/doubled_elements.hpp"
 #include "mesh/split_quadrilaterals.hpp"
 
 namespace chladni::mesh {
@@ -46,8 +49,11 @@ std::vector<int> nodes_of(const DeckElement& element, const NodeIndex& index)
   std::vector<int> nodes;
   for (const std::int64_t number : element.nodes) {
     const auto found = index.find(number);
-    if (number != 0 && found == index.end())
-      throw Error(fmt::format("element {}: its node {} is not there", element.number, number));
+    if (number != 0 && found == index.end()) {
+      throw Error(fmt::format("{}element {}: its node {} is not there",
+                              element.place.empty() ? "" : element.place + ": ", element.number,
+                              number));
+    }
     nodes.push_back(number == 0 ? -1 : found->second);
   }
   return nodes;
@@ -130,6 +136,145 @@ int n_quadrilaterals(const Mesh& mesh)
   return n;
 }
 
+/// An element for messages: "17 (line 43)".
+std::string element_name(const Deck& deck, Shape shape, std::int64_t number)
+{
+  const auto is_it = [&](const DeckElement& element) {
+    return element.number == number && element.shape == shape;
+  };
+  const auto element = std::ranges::find_if(deck.elements, is_it);
+  const bool is_placed = element != deck.elements.end() && !element->place.empty();
+  return is_placed ? fmt::format("{} ({})", number, element->place) : fmt::format("{}", number);
+}
+
+void refuse_doubled_elements(const Mesh& mesh, const Deck& deck)
+{
+  for (const ElementBlock& block : mesh.blocks) {
+    const std::vector<std::array<int, 2>> pairs = doubled_elements(block);
+    if (pairs.empty()) continue;
+    const auto name = [&](int e) {
+      return element_name(deck, block.shape, block.numbers[std::size_t(e)]);
+    };
+    throw Error(fmt::format(
+        "elements {} and {} have the same nodes{}; set doubled_elements = \"keep\" in [mesh] if "
+        "their stiffness and mass are to add up, or \"merge\" to take the first one alone",
+        name(pairs[0][0]), name(pairs[0][1]),
+        pairs.size() > 1 ? fmt::format(" ({} pairs)", pairs.size()) : ""));
+  }
+}
+
+void treat_doubled_elements(Mesh& mesh, const Deck& deck, const MeshOptions& options)
+{
+  if (options.doubled_elements == Doubled::refuse) refuse_doubled_elements(mesh, deck);
+  if (options.doubled_elements == Doubled::merge) merge_doubled_elements(mesh, {});
+}
+
+/// The middle nodes of edges by their ends.
+class Middles {
+ public:
+  explicit Middles(Deck& deck) : deck_(deck)
+  {
+    if (!deck.nodes.empty()) next_ = deck.nodes.rbegin()->first + 1;
+    first_ = next_;
+    for (const DeckElement& element : deck.elements) {
+      for (const auto& [a, middle, b] : edges(element)) {
+        if (element.order == 1) straight_.emplace(ends(a, b), element.number);
+        if (element.order == 2 && middle != 0) middles_.emplace(ends(a, b), middle);
+      }
+    }
+  }
+
+  void complete(DeckElement& element)
+  {
+    if (element.order != 2 || element.shape == Shape::line) return;
+    for (const std::array<int, 3>& places : edge_places(element)) {
+      std::int64_t& middle = element.nodes[std::size_t(places[1])];
+      if (middle == 0) middle = middle_of(element, places);
+    }
+  }
+
+  /// An added node is in the sets that have both ends of its edge: it is held where they are.
+  void join_sets()
+  {
+    for (DeckGroup& group : deck_.groups) {
+      const std::set<std::int64_t> members(group.nodes.begin(), group.nodes.end());
+      for (const auto& [node, ends] : added_)
+        if (members.contains(ends.first) && members.contains(ends.second))
+          group.nodes.push_back(node);
+    }
+  }
+
+  std::int64_t n_added() const { return next_ - first_; }
+  std::int64_t first() const { return first_; }
+
+ private:
+  using Ends = std::pair<std::int64_t, std::int64_t>;
+  static Ends ends(std::int64_t a, std::int64_t b) { return std::minmax({a, b}); }
+  struct Added {
+    std::int64_t node;
+    Ends ends;
+  };
+
+  /// Places of the nodes of each edge in the lattice, middle ones between the ends.
+  static std::vector<std::array<int, 3>> edge_places(const DeckElement& element)
+  {
+    if (element.shape == Shape::quadrilateral) {
+      if (element.order == 1) return {{0, 0, 1}, {1, 1, 3}, {3, 3, 2}, {2, 2, 0}};
+      return {{0, 1, 2}, {2, 5, 8}, {8, 7, 6}, {6, 3, 0}};
+    }
+    if (element.order == 1) return {{0, 0, 1}, {1, 1, 2}, {2, 2, 0}};
+    return {{0, 1, 2}, {2, 4, 5}, {5, 3, 0}};
+  }
+
+  static std::vector<std::array<std::int64_t, 3>> edges(const DeckElement& element)
+  {
+    std::vector<std::array<std::int64_t, 3>> found;
+    if (element.shape == Shape::line || element.order > 2) return found;
+    for (const auto& [a, middle, b] : edge_places(element)) {
+      found.push_back({element.nodes[std::size_t(a)], element.nodes[std::size_t(middle)],
+                       element.nodes[std::size_t(b)]});
+    }
+    return found;
+  }
+
+  std::int64_t middle_of(const DeckElement& element, const std::array<int, 3>& places)
+  {
+    const std::int64_t a = element.nodes[std::size_t(places[0])],
+                       b = element.nodes[std::size_t(places[2])];
+    if (const auto other = straight_.find(ends(a, b)); other != straight_.end()) {
+      throw Error(fmt::format(
+          "{}: element {} has no node between {} and {}, where element {} of order 1 begins: an "
+          "edge has one order here; give all elements the same",
+          element.place, element.number, a, b, other->second));
+    }
+    const auto known = middles_.find(ends(a, b));
+    if (known != middles_.end()) return known->second;
+    const auto from = deck_.nodes.find(a), to = deck_.nodes.find(b);
+    if (from == deck_.nodes.end() || to == deck_.nodes.end()) return 0;  // `mesh_of` names it
+    std::array<double, 3> x{};
+    for (std::size_t c = 0; c < 3; ++c) x[c] = 0.5 * (from->second[c] + to->second[c]);
+    deck_.nodes.emplace(next_, x);
+    middles_.emplace(ends(a, b), next_);
+    added_.push_back({.node = next_, .ends = ends(a, b)});
+    return next_++;
+  }
+
+  Deck& deck_;
+  std::map<Ends, std::int64_t> middles_, straight_;
+  std::vector<Added> added_;
+  std::int64_t next_ = 1, first_ = 1;
+};
+
+/// Whether all nodes of a set are reference nodes, which are no nodes of the mesh.
+bool is_of_references(const Deck& deck, const DeckGroup& group)
+{
+  const auto is_reference = [&](std::int64_t node) {
+    return std::ranges::find(deck.couplings, node, &DeckCoupling::reference) !=
+           deck.couplings.end();
+  };
+  return !group.nodes.empty() && std::ranges::all_of(group.nodes, is_reference);
+}
+
 /// As in files that Gmsh reads, and said in a note.
 Mesh with_flat_corners_split(Mesh mesh)
 {
@@ -170,13 +315,30 @@ DeckElement surface_element(std::int64_t number, const std::vector<std::int64_t>
   return element;
 }
 
-Mesh mesh_of(const Deck& deck, const std::vector<std::string>& line_groups)
+void add_missing_middles(Deck& deck)
+{
+  const auto lacks_middles = [](const DeckElement& element) {
+    const auto n = std::ranges::count(element.nodes, 0);
+    return element.order == 2 && n > (element.shape == Shape::quadrilateral ? 1 : 0);
+  };
+  if (std::ranges::none_of(deck.elements, lacks_middles)) return;
+  Middles middles(deck);
+  for (DeckElement& element : deck.elements) middles.complete(element);
+  if (middles.n_added() == 0) return;
+  middles.join_sets();
+  deck.notes.push_back(fmt::format(
+      "{} middle nodes that the deck leaves out stand on straight edges, numbered from {}; they "
+      "are in the sets that have both ends of their edge",
+      middles.n_added(), middles.first()));
+}
+
+Mesh mesh_of(const Deck& deck, const MeshOptions& options)
 {
   Mesh mesh;
   const NodeIndex index = add_nodes(mesh, deck);
   for (const DeckGroup& group : deck.groups)
     mesh.groups.push_back({.name = group.name, .dimension = group.dimension, .nodes = {}});
-  add_elements(mesh, deck, index, line_groups);
+  add_elements(mesh, deck, index, options.line_groups);
   add_groups_of_nodes(mesh, deck, index);
   if (mesh.blocks.empty()) {
     throw Error(
@@ -184,12 +346,13 @@ Mesh mesh_of(const Deck& deck, const std::vector<std::string>& line_groups)
         "docs/how-to/meshes.md for what can be read");
   }
   mesh.notes.insert(mesh.notes.begin(), deck.notes.begin(), deck.notes.end());
+  treat_doubled_elements(mesh, deck, options);
   add_inner_nodes(mesh);
-  drop_unused_nodes(mesh);
-  for (const Group& group : mesh.groups) {
-    if (!group.nodes.empty()) continue;
+  drop_unused_nodes(mesh, options.coupled_groups);
+  for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
+    if (!mesh.groups[g].nodes.empty() || is_of_references(deck, deck.groups[g])) continue;
     mesh.notes.push_back(
-        fmt::format("group \"{}\" is left out: no element has a node of it", group.name));
+        fmt::format("group \"{}\" is left out: no element has a node of it", mesh.groups[g].name));
   }
   return with_flat_corners_split(std::move(mesh));
 }

@@ -1,7 +1,12 @@
 #include "mesh/decks/deck_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
+
+#include "common/error.hpp"
 
 namespace chladni::mesh {
 
@@ -27,6 +32,53 @@ std::vector<std::string> cut_at_commas(std::string_view line)
     at = end + 1;
   }
   return words;
+}
+
+std::string refuse_included(const std::string& file)
+{
+  throw Error(fmt::format("the file {} cannot be included here", file));
+}
+
+struct DeckLines::Sources {
+  NameIncluded included;
+  const ReadIncluded& read;
+  std::vector<std::string> open;  ///< files that are being read, each included by the one before
+  int n_included;
+};
+
+DeckLines::DeckLines(const std::string& text, NameIncluded included, const ReadIncluded& read)
+{
+  Sources sources{.included = included, .read = read, .open = {}, .n_included = 0};
+  add(text, "", sources);
+}
+
+void DeckLines::add(const std::string& text, const std::string& file, Sources& sources)
+{
+  constexpr int most_files = 1000;
+  for_each_line(text, 0, [&](std::string_view line, int number) {
+    std::string place =
+        file.empty() ? fmt::format("line {}", number) : fmt::format("line {} of {}", number, file);
+    const std::string named = sources.included(line);
+    if (named.empty()) {
+      lines_.push_back({line, std::move(place)});
+      return true;
+    }
+    const std::string path =
+        (std::filesystem::path(file).parent_path() / named).lexically_normal().string();
+    if (std::ranges::find(sources.open, path) != sources.open.end())
+      throw Error(fmt::format("{}: includes {}, which includes this file", place, path));
+    if (++sources.n_included > most_files)
+      throw Error(fmt::format("{}: more than {} files are included", place, most_files));
+    try {
+      texts_.push_back(sources.read(path));
+    } catch (const Error& error) {
+      throw Error(fmt::format("{}: {}", place, error.what()));
+    }
+    sources.open.push_back(path);
+    add(texts_.back(), path, sources);
+    sources.open.pop_back();
+    return true;
+  });
 }
 
 }  // namespace chladni::mesh

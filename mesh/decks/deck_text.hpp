@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deque>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,5 +31,38 @@ void for_each_line(const std::string& text, std::size_t begin, auto&& take)
     at = end + 1;
   }
 }
+
+/// A line of a deck, and what messages call it.
+struct DeckLine {
+  std::string_view text;
+  std::string place;  ///< "line 7", of an included file "line 7 of part.bdf"
+};
+
+/// Returns the text of a file that a deck includes, by its path from the folder of the deck.
+using ReadIncluded = std::function<std::string(const std::string& file)>;
+
+/// Refuses to include files, for decks that are no files themselves.
+std::string refuse_included(const std::string& file);
+
+/// The lines of a deck, with those of included files in the places of the lines that name them.
+class DeckLines {
+ public:
+  /// Returns the file that a line includes, as it is named there; empty for any other line.
+  using NameIncluded = std::string (*)(std::string_view line);
+
+  /// @param text  must outlive this object
+  /// @throws chladni::Error naming a line whose file cannot be read, or that leads back to itself.
+  DeckLines(const std::string& text, NameIncluded included, const ReadIncluded& read);
+
+  auto begin() const { return lines_.begin(); }
+  auto end() const { return lines_.end(); }
+
+ private:
+  struct Sources;
+  void add(const std::string& text, const std::string& file, Sources& sources);
+
+  std::vector<DeckLine> lines_;
+  std::deque<std::string> texts_;  ///< of included files
+};
 
 }  // namespace chladni::mesh

@@ -36,10 +36,16 @@ struct DeclaredBeam {
   std::optional<std::array<double, 3>> orientation = {};
 };
 
-/// A reference node coupled to the nodes of a group.
+/// The kinds of couplings of a scene that decks have.
+enum class CouplingOfDeck { rigid, averaging };
+
+/// A reference node coupled to the nodes of a group, or a group that follows another node.
 struct DeclaredCoupling {
-  std::string name, group;
-  bool averages;  ///< false: rigid; true: it follows their average
+  std::string name = {};  ///< of the reference node; empty with `to`
+  std::string group;
+  CouplingOfDeck kind;
+  std::string to = {};  ///< group of one node, or coupling, that the nodes follow
+  std::optional<std::array<double, 3>> at = {};  ///< m; absent with `to`
 };
 
 /// Held components of the nodes of a group, or of the reference node of a coupling.

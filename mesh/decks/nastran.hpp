@@ -1,8 +1,10 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "mesh/decks/deck.hpp"
 #include "mesh/decks/nastran_cards.hpp"
@@ -10,10 +12,10 @@
 /// Bulk data of Nastran: NX, MSC, MYSTRAN and programs that write for them.
 namespace chladni::mesh {
 
-/// Reads nodes, elements and groups. The groups are `pshell_1`, `pbar_2`, `pbeam_3` for the
-/// elements of a property; `rbe2_4`, `rbe3_5` for the nodes that follow or are averaged;
-/// `spc_6_123` for the nodes whose components 1, 2, 3 the set 6 holds; `ps_123` for those that
-/// their GRID holds; `set_7` for a SET1.
+/// Reads nodes, elements, groups and couplings. The groups are `pshell_1`, `pbar_2`, `pbeam_3` for
+/// the elements of a property; `rbe2_4`, `rbar_4`, `mpc_4_17` for the nodes that follow (17 that of
+/// the equations), `rbe3_5` for those that are averaged; `spc_6_123` for the nodes whose components
+/// 1, 2, 3 the set 6 holds; `ps_123` for those that their GRID holds; `set_7` for a SET1.
 /// @throws chladni::Error naming line and card of a mistake, and of every unknown card.
 Deck nastran_deck(std::span<const Card> cards);
 
@@ -26,13 +28,13 @@ Declarations nastran_declarations(std::span<const Card> cards, const Deck& deck,
 struct DeckSystem {
   std::array<double, 3> origin;
   std::array<std::array<double, 3>, 3> axes;
-  bool is_cylindrical;
+  char kind;  ///< 'R' rectangular, 'C' cylindrical (r, theta, z), 'S' spherical (r, theta, phi)
 };
 
 /// Coordinate systems by number; 0 is the basic one.
 using DeckSystems = std::map<std::int64_t, DeckSystem>;
 
-/// Reads CORD2R and CORD2C, which may refer to each other in any order.
+/// Reads CORD2R, CORD2C and CORD2S, which may refer to each other in any order.
 /// @throws chladni::Error naming a card whose axes are degenerate or whose reference is missing.
 DeckSystems nastran_systems(std::span<const Card> cards);
 
@@ -79,11 +81,32 @@ void declare_points(std::span<const Card> cards, const Deck& deck, const DeckUni
 /// @throws chladni::Error for an unknown shape.
 DeclaredBeam bar_of_shape(const Card& card);
 
-/// The reference node and the other nodes of an RBE2 or RBE3.
+/// The components that the field PS of a GRID holds.
+std::vector<int> held_by_grid(const Card& card);
+
+/// The sets SPC or MPC of which the analysis consists: those that case control chooses (`word` is
+/// SPC or MPC), or the only one of the bulk data.
+struct ChosenSets {
+  std::set<std::int64_t> sets;
+  std::vector<std::string> notes;  ///< for the user: of sets that are left out
+};
+/// @throws chladni::Error when there are several sets and none is chosen, or the chosen one is not
+///         there.
+ChosenSets chosen_sets(std::span<const Card> cards, const std::string& word);
+
+/// The reference node of a rigid element or an average, and its other nodes.
 struct RigidElement {
+  std::string group;  ///< name of the group of the nodes
   std::int64_t reference;
   std::vector<std::int64_t> nodes;
+  const Card* card;  ///< the first one of it
+
+  bool averages() const { return card->name() == "RBE3"; }
 };
-RigidElement rigid_element(const Card& card);
+
+/// Reads RBE2, RBE3, RBAR and the equations (MPC) of the chosen set, of which six of two terms each
+/// make a rigid link.
+/// @throws chladni::Error for anything that is not wholly rigid, or no plain average.
+std::vector<RigidElement> rigid_elements(std::span<const Card> cards, const Deck& deck);
 
 }  // namespace chladni::mesh

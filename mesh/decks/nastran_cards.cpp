@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 
 #include "common/error.hpp"
 #include "mesh/decks/deck_text.hpp"
@@ -10,11 +12,11 @@
 namespace chladni::mesh {
 namespace {
 
-/// A line cut into its name, its fields and the mark of a continuation to come.
+/// A line cut into its name and its fields.
 struct CutLine {
   std::string name;
   std::vector<std::string> fields;
-  std::string mark;
+  std::string mark;  ///< of a continuation to come; empty for none
   bool is_large;
 };
 
@@ -33,11 +35,11 @@ std::string with_blanks(std::string_view line)
 CutLine cut_fixed(const std::string& line)
 {
   constexpr std::size_t small = 8, large = 16, behind = 72;
-  CutLine cut{
-      .name = capitals(trimmed(std::string_view(line).substr(0, small))),
-      .fields = {},
-      .mark = line.size() > behind ? capitals(trimmed(std::string_view(line).substr(behind))) : "",
-      .is_large = false};
+  const std::string mark = line.size() > behind ? capitals(line.substr(behind, small)) : "";
+  CutLine cut{.name = capitals(trimmed(std::string_view(line).substr(0, small))),
+              .fields = {},
+              .mark = trimmed(mark).empty() ? "" : mark,
+              .is_large = false};
   cut.is_large = cut.name.find('*') != std::string::npos;
   const std::size_t width = cut.is_large ? large : small;
   for (std::size_t at = small; at < behind; at += width) {
@@ -48,7 +50,8 @@ CutLine cut_fixed(const std::string& line)
 }
 
 /// A mark in the tenth field of a free line; more fields, or a number there, would be lost.
-std::string mark_of(const std::vector<std::string>& words, std::size_t n_fields, int line)
+std::string mark_of(const std::vector<std::string>& words, std::size_t n_fields,
+                    const std::string& place)
 {
   if (words.size() <= n_fields + 1) return "";
   const std::string& mark = words[n_fields + 1];
@@ -57,12 +60,12 @@ std::string mark_of(const std::vector<std::string>& words, std::size_t n_fields,
                                    [](const std::string& word) { return !word.empty(); });
   if (!is_number && !is_more) return mark;
   throw Error(
-      fmt::format("line {}: has more than {} fields behind its name; put the others on a "
+      fmt::format("{}: has more than {} fields behind its name; put the others on a "
                   "line that begins with a comma",
-                  line, n_fields));
+                  place, n_fields));
 }
 
-CutLine cut_free(const std::string& line, int number)
+CutLine cut_free(const std::string& line, const std::string& place)
 {
   std::vector<std::string> words = cut_at_commas(line);
   for (std::string& word : words) word = capitals(word);
@@ -70,14 +73,8 @@ CutLine cut_free(const std::string& line, int number)
   cut.is_large = cut.name.find('*') != std::string::npos;
   const std::size_t n = cut.is_large ? 4 : 8;
   for (std::size_t i = 1; i <= n; ++i) cut.fields.push_back(i < words.size() ? words[i] : "");
-  cut.mark = mark_of(words, n, number);
+  cut.mark = mark_of(words, n, place);
   return cut;
-}
-
-std::string without_signs(std::string mark)
-{
-  std::erase_if(mark, [](char c) { return c == '+' || c == '*'; });
-  return mark;
 }
 
 bool is_continuation(const CutLine& cut)
@@ -85,69 +82,198 @@ bool is_continuation(const CutLine& cut)
   return cut.name.empty() || cut.name.front() == '+' || cut.name.front() == '*';
 }
 
-/// The cards, and the mark that the last line of the last one ends with.
-class Collection {
+/// What marks are compared by: columns 74 to 80 of a line and 2 to 8 of its continuation. Column 73
+/// is free.
+std::string compared(const std::string& mark)
+{
+  return trimmed(std::string_view(mark).substr(std::min<std::size_t>(mark.size(), 1)));
+}
+
+/// The same for marks in free fields, which may lack the sign in front.
+std::string without_signs(std::string mark)
+{
+  std::erase_if(mark, [](char c) { return c == '+' || c == '*'; });
+  return trimmed(mark);
+}
+
+bool is_continued_by(const std::string& mark, const std::string& name)
+{
+  return compared(mark) == compared(name) || without_signs(mark) == without_signs(name);
+}
+
+/// The lines of the bulk data, of which each may continue another one.
+class BulkLines {
  public:
-  void add(const CutLine& cut, int line)
+  void add(CutLine cut, const std::string& place)
   {
-    const std::size_t width = cut.is_large ? 4 : 8;
-    if (!is_continuation(cut))
-      cards_.emplace_back(without_signs(cut.name), line);
-    else if (cards_.empty())
-      throw Error(fmt::format("line {}: continues no entry", line));
-    else
-      check_mark(cut, line);
-    cards_.back().append(cut.fields, width);
-    mark_ = without_signs(cut.mark);
+    lines_.push_back({.cut = std::move(cut), .place = place});
   }
-  std::vector<Card> take() { return std::move(cards_); }
+
+  std::vector<Card> cards()
+  {
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+      if (is_continuation(lines_[i].cut)) continue_by(i);
+    std::vector<Card> cards;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      if (is_continuation(lines_[i].cut)) continue;
+      cards.emplace_back(without_signs(lines_[i].cut.name), lines_[i].place);
+      for (std::size_t k = i; k != none; k = lines_[k].next)
+        cards.back().append(lines_[k].cut.fields, lines_[k].cut.is_large ? 4 : 8);
+    }
+    return cards;
+  }
 
  private:
-  void check_mark(const CutLine& cut, int line) const
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  struct Line {
+    CutLine cut;
+    std::string place;
+    std::size_t next = none;  ///< the line that continues it
+  };
+
+  void continue_by(std::size_t i)
   {
-    const std::string mark = without_signs(cut.name);
-    if (mark.empty() || mark_.empty() || mark == mark_) return;
-    throw Error(
-        fmt::format("line {}: the continuation {} stands behind a line that asks for {}; put "
-                    "each behind its own line",
-                    line, mark, mark_));
+    if (i == 0) throw Error(fmt::format("{}: continues no entry", lines_[i].place));
+    Line& continued = lines_[continued_by(i)];
+    if (continued.next != none) {
+      throw Error(fmt::format("{}: continues {}, as {} does", lines_[i].place, continued.place,
+                              lines_[continued.next].place));
+    }
+    continued.next = i;
   }
 
-  std::vector<Card> cards_;
-  std::string mark_;
+  /// The line before, unless another one ends with the mark.
+  std::size_t continued_by(std::size_t i)
+  {
+    const std::string& name = lines_[i].cut.name;
+    const std::string& mark = lines_[i - 1].cut.mark;
+    if (without_signs(name).empty() || is_continued_by(mark, name)) return i - 1;
+    if (with_mark_.empty()) find_marks();
+    const auto [first, end] = with_mark_.equal_range(compared(name));
+    if (first != end && std::next(first) == end) return first->second;
+    if (first == end && mark.empty()) return i - 1;
+    throw Error(fmt::format(
+        "{}: the continuation {} stands behind a line that asks for {}, and {} with this mark",
+        lines_[i].place, without_signs(name), mark.empty() ? "none" : without_signs(mark),
+        first == end ? "there is no line" : "there are several lines"));
+  }
+
+  void find_marks()
+  {
+    for (std::size_t k = 0; k < lines_.size(); ++k) {
+      const std::string& mark = lines_[k].cut.mark;
+      if (mark.empty()) continue;
+      with_mark_.emplace(compared(mark), k);
+      if (without_signs(mark) != compared(mark)) with_mark_.emplace(without_signs(mark), k);
+    }
+  }
+
+  std::vector<Line> lines_;
+  std::multimap<std::string, std::size_t> with_mark_;  ///< lines by what they ask for
 };
 
-/// Where the bulk data begin: behind BEGIN BULK, or with the text where there is no such line.
-std::size_t begin_of_bulk(const std::string& text)
+/// The file that INCLUDE names, with or without quotes.
+std::string included_file(std::string_view line)
 {
-  std::size_t begin = 0;
-  for_each_line(text, 0, [&](std::string_view whole, int) {
-    const std::string line = capitals(trimmed(whole));
-    const bool is_begin = line.starts_with("BEGIN") && line.find("BULK") != std::string::npos;
-    if (is_begin) begin = std::size_t(whole.data() - text.data()) + whole.size() + 1;
-    return !is_begin;
-  });
-  return begin;
+  constexpr std::string_view command = "INCLUDE";
+  const std::string text = trimmed(line.substr(0, line.find('$')));
+  if (capitals(text.substr(0, command.size())) != command) return "";
+  const std::string file = trimmed(std::string_view(text).substr(command.size()));
+  const bool is_quoted = file.size() > 2 && (file.front() == '\'' || file.front() == '"') &&
+                         file.back() == file.front();
+  return is_quoted ? file.substr(1, file.size() - 2) : file;
+}
+
+bool begins_bulk(std::string_view line)
+{
+  const std::string words = capitals(trimmed(line));
+  return words.starts_with("BEGIN") && words.find("BULK") != std::string::npos;
+}
+
+/// The sets that case control chooses, from all subcases.
+class CaseControl {
+ public:
+  void read(const DeckLine& line)
+  {
+    const std::string text = capitals(trimmed(line.text.substr(0, line.text.find('$'))));
+    if (text == "CEND") has_end_ = true;
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) return;
+    const std::string word = trimmed(std::string_view(text).substr(0, equals));
+    if (word != "SPC" && word != "MPC") return;
+    Card choice = card(word, trimmed(std::string_view(text).substr(equals + 1)), line.place);
+    const auto [before, is_new] = chosen_.emplace(word, choice);
+    if (is_new || before->second.field(2) == choice.field(2)) return;
+    choice.refuse(fmt::format("{} chooses {} = {}; a scene is of one case: keep one SUBCASE",
+                              before->second.place(), word, before->second.field(2)));
+  }
+
+  std::vector<Card> cards() const
+  {
+    std::vector<Card> all;
+    for (const char* word : {"SPC", "MPC"}) {
+      const auto found = chosen_.find(word);
+      if (found != chosen_.end()) all.push_back(found->second);
+      if (found == chosen_.end() && has_end_) all.push_back(card(word, "", "case control"));
+    }
+    return all;
+  }
+
+ private:
+  static Card card(const std::string& word, const std::string& set, const std::string& place)
+  {
+    Card choice("CASE", place);
+    choice.append({word, set}, 2);
+    return choice;
+  }
+
+  std::map<std::string, Card> chosen_;
+  bool has_end_ = false;
+};
+
+/// Blank fields of GRID have the values of GRDSET.
+void fill_grids(std::vector<Card>& cards)
+{
+  const auto defaults = std::ranges::find(cards, "GRDSET", &Card::name);
+  if (defaults == cards.end()) return;
+  const auto second = std::find_if(std::next(defaults), cards.end(),
+                                   [](const Card& card) { return card.name() == "GRDSET"; });
+  if (second != cards.end()) second->refuse("there is one already; a deck has one at most");
+  defaults->expect_no_more_than(8);
+  const Card values = *defaults;
+  for (Card& card : cards)
+    if (card.name() == "GRID")
+      for (const std::size_t i : {2, 6, 7}) card.fill(i, values.field(i));
 }
 
 }  // namespace
 
-std::vector<Card> nastran_cards(const std::string& text)
+std::vector<Card> nastran_cards(const std::string& text, const ReadIncluded& read)
 {
-  Collection cards;
-  for_each_line(text, begin_of_bulk(text), [&](std::string_view whole, int number) {
-    const std::string unmarked = with_blanks(whole);
+  const DeckLines lines(text, included_file, read);
+  const bool has_begin =
+      std::ranges::any_of(lines, [](const DeckLine& line) { return begins_bulk(line.text); });
+  CaseControl control;
+  BulkLines bulk;
+  bool is_bulk = !has_begin;
+  for (const DeckLine& whole : lines) {
+    if (!is_bulk) {
+      is_bulk = begins_bulk(whole.text);
+      control.read(whole);
+      continue;
+    }
+    const std::string unmarked = with_blanks(whole.text);
     const std::string line = unmarked.substr(0, unmarked.find('$'));
     const std::string start = capitals(trimmed(line)).substr(0, 7);
-    if (start.empty()) return true;
-    if (start == "INCLUDE")
-      throw Error(fmt::format("line {}: INCLUDE: put the other file in its place", number));
-    if (start == "ENDDATA") return false;
+    if (start.empty()) continue;
+    if (start == "ENDDATA") break;
     const bool is_free = line.find(',') != std::string::npos;
-    cards.add(is_free ? cut_free(line, number) : cut_fixed(line), number);
-    return true;
-  });
-  return cards.take();
+    bulk.add(is_free ? cut_free(line, whole.place) : cut_fixed(line), whole.place);
+  }
+  std::vector<Card> cards = control.cards();
+  std::ranges::move(bulk.cards(), std::back_inserter(cards));
+  fill_grids(cards);
+  return cards;
 }
 
 }  // namespace chladni::mesh

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "mesh/decks/deck_text.hpp"
+
 namespace chladni::mesh {
 
 /// The numbers `from`, from + step, ... up to `to`. A single number has from = to.
@@ -16,10 +18,11 @@ struct NumberRange {
 /// An entry of a bulk data deck with its fields as text.
 class Card {
  public:
-  Card(std::string name, int line) : name_(std::move(name)), line_(line) {}
+  /// @param place  "line 7"
+  Card(std::string name, std::string place) : name_(std::move(name)), place_(std::move(place)) {}
 
   const std::string& name() const { return name_; }
-  int line() const { return line_; }
+  const std::string& place() const { return place_; }
   /// Number of fields after the name, without the fields that mark continuations.
   std::size_t n_fields() const { return fields_.size(); }
   /// Field i, counted from 1; empty if it is blank or missing.
@@ -46,16 +49,22 @@ class Card {
   [[noreturn]] void refuse(std::string_view why) const;
 
   void append(const std::vector<std::string>& fields, std::size_t width);
+  /// Gives field i a value if it is blank.
+  void fill(std::size_t i, std::string_view value);
 
  private:
   std::string name_;
-  int line_;
+  std::string place_;
   std::vector<std::string> fields_;
 };
 
 /// Reads the entries of a bulk data deck, in small, large and free fields, from BEGIN BULK (if
-/// present) to ENDDATA. Continuations must follow their entry.
-/// @throws chladni::Error naming a line that is no entry.
-std::vector<Card> nastran_cards(const std::string& text);
+/// present) to ENDDATA. A continuation follows its entry, or the line that ends with its mark.
+/// Blank fields of a GRID have the values of GRDSET. What case control chooses comes first: cards
+/// CASE with the fields SPC or MPC and the number of the set, or without a number where a case
+/// control chooses none.
+/// @throws chladni::Error naming a line that is no entry, or that cannot be included.
+std::vector<Card> nastran_cards(const std::string& text,
+                                const ReadIncluded& read = refuse_included);
 
 }  // namespace chladni::mesh

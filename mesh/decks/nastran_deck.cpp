@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "common/error.hpp"
+#include "mesh/decks/holders.hpp"
 #include "mesh/decks/nastran.hpp"
 
 namespace chladni::mesh {
@@ -34,6 +35,8 @@ class Reader {
       else
         refuse_unknown(card);
     }
+    couple();
+    add_missing_middles(deck_);
     for (const auto& [name, n] : left_out_)
       deck_.notes.push_back(fmt::format("{} {} are left out: they are no part of a mesh", n, name));
     return std::move(deck_);
@@ -52,15 +55,16 @@ class Reader {
 
   static Readers make_readers()
   {
-    Readers all{
-        {"SET1", &Reader::set1},  {"RBE2", &Reader::rigid},    {"RBE3", &Reader::rigid},
-        {"SPC", &Reader::held},   {"SPC1", &Reader::held},     {"PARAM", &Reader::parameter},
-        {"CONM2", &Reader::mass}, {"CELAS1", &Reader::spring}, {"CELAS2", &Reader::spring}};
+    Readers all{{"SET1", &Reader::set1},    {"SPC", &Reader::held},
+                {"SPC1", &Reader::held},    {"PARAM", &Reader::parameter},
+                {"CONM2", &Reader::mass},   {"CELAS1", &Reader::spring},
+                {"CELAS2", &Reader::spring}};
+    for (const char* name : {"RBE2", "RBE3", "RBAR"}) all.emplace(name, &Reader::rigid);
     for (const char* name : {"CQUAD4", "CTRIA3"}) all.emplace(name, &Reader::flat_shell);
     for (const char* name : {"CQUAD8", "CTRIA6"}) all.emplace(name, &Reader::curved_shell);
     for (const char* name : {"CBAR", "CBEAM"}) all.emplace(name, &Reader::beam);
-    for (const char* name :
-         {"CORD2R", "CORD2C", "MAT1", "PSHELL", "PBAR", "PBARL", "PBEAM", "PELAS"})
+    for (const char* name : {"CORD2R", "CORD2C", "CORD2S", "MAT1", "PSHELL", "PBAR", "PBARL",
+                             "PBEAM", "PELAS", "CASE", "GRDSET", "SPCADD", "MPC", "MPCADD"})
       all.emplace(name, [](Reader&, const Card&) {});
     for (const char* name : {"EIGR", "EIGRL", "FORCE", "MOMENT", "PLOAD", "PLOAD2", "PLOAD4",
                              "GRAV", "LOAD", "TEMP", "TEMPD"})
@@ -89,7 +93,8 @@ class Reader {
       card.refuse(fmt::format("there is no coordinate system {}", system));
     const auto x = basic_position(found->second, card.vector_or_zero(3, "a coordinate"));
     if (!deck_.nodes.emplace(number, x).second) card.refuse("is there twice");
-    if (card.has(7)) add_to(name_of_held_by_grid(card.components(7)), {number});
+    const std::vector<int> held = held_by_grid(card);
+    if (!held.empty()) add_to(name_of_held_by_grid(held), {number});
   }
 
   static std::int64_t node(const Card& card, std::size_t i)
@@ -113,10 +118,15 @@ class Reader {
     all.insert(all.end(), numbers.begin(), numbers.end());
   }
 
+  /// Numbers of shells and beams, of rigid elements, of masses and of springs are their own.
   std::int64_t element_number(const Card& card)
   {
+    const std::string kind = card.name().starts_with('R')       ? "rigid"
+                             : card.name().starts_with("CELAS") ? "spring"
+                             : card.name() == "CONM2"           ? "mass"
+                                                                : "shell or beam";
     const std::int64_t number = card.integer(1, "EID");
-    if (number == 0 || !element_numbers_.insert(number).second)
+    if (number == 0 || !element_numbers_.emplace(kind, number).second)
       card.refuse("its number is that of another element, or 0");
     return number;
   }
@@ -142,8 +152,14 @@ class Reader {
     // ZOFFS, 3 blank, TFLAG T1 ..
     check_shell(card, 3 + n, 11, n);
     card.expect_no_more_than(10 + n);
+    add_surface(card, nodes(card, n));
+  }
+
+  void add_surface(const Card& card, const std::vector<std::int64_t>& of_card)
+  {
     deck_.elements.push_back(
-        surface_element(element_number(card), nodes(card, n), property_group(card, "pshell", 2)));
+        surface_element(element_number(card), of_card, property_group(card, "pshell", 2)));
+    deck_.elements.back().place = card.place();
   }
 
   void curved_shell(const Card& card)
@@ -154,8 +170,11 @@ class Reader {
     const std::size_t theta = is_triangle ? 9 : 15;
     check_shell(card, theta, 11, is_triangle ? 3 : 4);
     card.expect_no_more_than(is_triangle ? 14 : 17);
-    deck_.elements.push_back(
-        surface_element(element_number(card), nodes(card, n), property_group(card, "pshell", 2)));
+    // Of the nodes in the middle of edges a card may leave out any.
+    std::vector<std::int64_t> of_card = nodes(card, n / 2);
+    for (std::size_t i = n / 2; i < n; ++i)
+      of_card.push_back(card.integer_or(3 + i, "number of a node", 0));
+    add_surface(card, of_card);
   }
 
   void beam(const Card& card)
@@ -169,14 +188,23 @@ class Reader {
                               .shape = Shape::line,
                               .order = 1,
                               .nodes = nodes(card, 2),
-                              .group = property_group(card, kind, 1)});
+                              .group = property_group(card, kind, 1),
+                              .place = card.place()});
   }
 
-  void rigid(const Card& card)
+  void rigid(const Card& card) { element_number(card); }
+
+  void couple()
   {
-    const std::int64_t number = element_number(card);
-    const char* kind = card.name() == "RBE2" ? "rbe2" : "rbe3";
-    add_to(fmt::format("{}_{}", kind, number), rigid_element(card).nodes);
+    for (const RigidElement& element : rigid_elements(cards_, deck_)) {
+      add_to(element.group, element.nodes);
+      deck_.couplings.push_back({.entry = fmt::format("{}: {} {}", element.card->place(),
+                                                      element.card->name(), element.card->field(1)),
+                                 .reference = element.reference,
+                                 .group = element.group,
+                                 .averages = element.averages()});
+    }
+    add_leaders(deck_);
   }
 
   void mass(const Card& card)
@@ -217,7 +245,7 @@ class Reader {
   std::span<const Card> cards_;
   DeckSystems systems_;
   Deck deck_;
-  std::set<std::int64_t> element_numbers_;
+  std::set<std::pair<std::string, std::int64_t>> element_numbers_;
   std::map<std::string, int> left_out_;
 };
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
-#include <set>
 
 #include "common/error.hpp"
 #include "mesh/decks/holders.hpp"
@@ -19,8 +19,17 @@ std::string material_name(const Card& card, std::size_t i)
   return fmt::format("mat1_{}", card.integer(i, "MID"));
 }
 
+/// Whether two numbers are one to two digits, as G is often given.
+bool agree_to_two_digits(double given, double exact)
+{
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(given))) - 1.0);
+  constexpr double half = 0.5 + 1e-9;
+  return std::abs(given - exact) <= half * unit;
+}
+
 /// Two of E, G and nu, of which the third follows.
-DeclaredMaterial material(const Card& card, const DeckUnits& units)
+/// @param notes  gets what becomes of a G of few digits
+DeclaredMaterial material(const Card& card, const DeckUnits& units, std::vector<std::string>& notes)
 {
   card.expect_no_more_than(12);
   const bool has_young = card.has(2), has_shear = card.has(3), has_poisson = card.has(4);
@@ -30,9 +39,19 @@ DeclaredMaterial material(const Card& card, const DeckUnits& units)
   const double nu = has_poisson ? card.real(4, "NU") : given / (2.0 * G) - 1.0;
   const double young = has_young ? given : 2.0 * G * (1.0 + nu);
   constexpr double digits_of_a_field = 1e-3;
+  const double isotropic = young / (2.0 * (1.0 + nu));
   if (has_young && has_shear && has_poisson &&
-      std::abs(2.0 * G * (1.0 + nu) - young) > digits_of_a_field * young)
-    card.refuse("G is not E / (2 (1 + NU)); a scene's materials are isotropic");
+      std::abs(G - isotropic) > digits_of_a_field * isotropic) {
+    if (!(G > 0.0 && agree_to_two_digits(G, isotropic))) {
+      card.refuse(fmt::format(
+          "G = {:.6g} is not E / (2 (1 + NU)) = {:.6g}; a scene's materials are isotropic", G,
+          isotropic));
+    }
+    notes.push_back(
+        fmt::format("MAT1 {}: G = {:.6g} has two digits; taken is E / (2 (1 + NU)) = "
+                    "{:.6g}",
+                    card.field(1), G, isotropic));
+  }
   return {.name = material_name(card, 1),
           .young = young * units.stress(),
           .poisson = nu,
@@ -58,13 +77,13 @@ class Declarer {
   Declarations declare()
   {
     for (const Card& card : cards_) {
-      if (card.name() == "MAT1") all_.materials.push_back(material(card, units_));
       if (card.name() == "PSHELL") shell(card);
       if (card.name() == "PBAR") bar(card);
       if (card.name() == "PBARL") bar_by_shape(card);
       if (card.name() == "PBEAM") beam(card);
-      if (card.name() == "RBE2" || card.name() == "RBE3") coupling(card);
     }
+    materials();
+    declare_couplings(deck_, units_, holders_, all_);
     supports();
     declare_points(cards_, deck_, units_, holders_, all_);
     for (const DeckGroup& group : deck_.groups) check_has_section(group);
@@ -84,6 +103,24 @@ class Declarer {
   bool is_used(const std::string& group) const
   {
     return std::ranges::find(deck_.groups, group, &DeckGroup::name) != deck_.groups.end();
+  }
+
+  /// Materials without a density are no error as long as no element is of them.
+  void materials()
+  {
+    for (const Card& card : cards_) {
+      if (card.name() != "MAT1") continue;
+      const DeclaredMaterial found = material(card, units_, all_.notes);
+      const auto is_of_it = [&](const auto& section) { return section.material == found.name; };
+      const bool is_used =
+          std::ranges::any_of(all_.shells, is_of_it) || std::ranges::any_of(all_.beams, is_of_it);
+      if (found.density > 0.0) all_.materials.push_back(found);
+      if (is_used && !(found.density > 0.0)) {
+        card.refuse(
+            "has no density (RHO, field 6), without which there are no natural frequencies; give "
+            "it one, a small one to what is to have no mass");
+      }
+    }
   }
 
   void shell(const Card& card)
@@ -133,12 +170,13 @@ class Declarer {
     expect_no_mass(card, 7);
     if (card.real_or(19, "I12", 0.0) != 0.0)
       card.refuse("I12: the axes must be the principal ones");
-    if (card.has(17) != card.has(18)) card.refuse("has one of K1 and K2; a scene has both or none");
     add_beam(card, group,
-             with_shear(card, {.area = card.real(3, "A"),
-                               .I_y = card.real(4, "I1"),
-                               .I_z = card.real(5, "I2"),
-                               .J = card.real_or(6, "J", 0.0)}));
+             with_shear(card,
+                        {.area = card.real(3, "A"),
+                         .I_y = card.real(4, "I1"),
+                         .I_z = card.real(5, "I2"),
+                         .J = card.real_or(6, "J", 0.0)},
+                        0.0));
   }
 
   void bar_by_shape(const Card& card)
@@ -147,12 +185,20 @@ class Declarer {
     if (is_used(group)) add_beam(card, group, bar_of_shape(card));
   }
 
-  /// K1 belongs to the plane of the vector, which is x-z in a scene.
-  static DeclaredBeam with_shear(const Card& card, DeclaredBeam beam)
+  /// K1 belongs to the plane of the vector, which is x-z in a scene. 0 is infinite stiffness in
+  /// shear, as in Nastran.
+  /// @param usual  K1 and K2 where they are blank
+  static DeclaredBeam with_shear(const Card& card, DeclaredBeam beam, double usual)
   {
-    if (!card.has(17)) return beam;
-    beam.shear_factor_z = card.real(17, "K1");
-    beam.shear_factor_y = card.real(18, "K2");
+    const double K_1 = card.real_or(17, "K1", usual), K_2 = card.real_or(18, "K2", usual);
+    if ((K_1 == 0.0) != (K_2 == 0.0)) {
+      card.refuse(
+          "is rigid in shear (K = 0) in one of its two planes; a scene's beam is so in both or in "
+          "none");
+    }
+    if (K_1 == 0.0) return beam;
+    beam.shear_factor_z = K_1;
+    beam.shear_factor_y = K_2;
     return beam;
   }
 
@@ -168,12 +214,13 @@ class Declarer {
         card.refuse(fmt::format("field {} has no counterpart in a scene", i + 1));
     if (card.real_or(6, "I12", 0.0) != 0.0) card.refuse("I12: the axes must be the principal ones");
     expect_no_mass(card, 8);
-    DeclaredBeam found = with_shear(card, {.area = card.real(3, "A"),
-                                           .I_y = card.real(4, "I1"),
-                                           .I_z = card.real(5, "I2"),
-                                           .J = card.real_or(7, "J", 0.0)});
-    if (!card.has(17)) found.shear_factor_y = found.shear_factor_z = 1.0;
-    add_beam(card, group, found);
+    add_beam(card, group,
+             with_shear(card,
+                        {.area = card.real(3, "A"),
+                         .I_y = card.real(4, "I1"),
+                         .I_z = card.real(5, "I2"),
+                         .J = card.real_or(7, "J", 0.0)},
+                        1.0));
   }
 
   /// The vector that all beams of a group share.
@@ -228,22 +275,6 @@ class Declarer {
     }
   }
 
-  void coupling(const Card& card)
-  {
-    const RigidElement element = rigid_element(card);
-    const bool averages = card.name() == "RBE3";
-    const std::string group =
-        fmt::format("{}_{}", averages ? "rbe3" : "rbe2", card.integer(1, "EID"));
-    all_.notes.push_back(
-        fmt::format("{} {}: in the scene node {} stands at the centre of the nodes{}", card.name(),
-                    card.field(1), element.reference,
-                    averages ? ", each of which counts as the area that it stands for" : ""));
-    all_.couplings.push_back(
-        {.name = told(card, [&] { return holders_.add_reference(element.reference); }),
-         .group = group,
-         .averages = averages});
-  }
-
   void support(const Card& card, const std::string& group, const HeldNodes& held)
   {
     for (const std::int64_t node : held.nodes) {
@@ -257,26 +288,35 @@ class Declarer {
                         node));
       }
     }
-    for (const std::string& holder : told(card, [&] { return holders_.of(group, held.nodes); }))
+    const std::string entry = fmt::format("{}: {} {}", card.place(), card.name(), card.field(1));
+    const auto nodes = supported_nodes(holders_, entry, held.nodes, all_);
+    for (const std::string& holder : told(card, [&] { return holders_.of(group, nodes); }))
       add_support(all_, holder, held.components);
+  }
+
+  /// A node that no element has, and that nothing follows, is held for nobody: GRDSET holds all.
+  void support_of_grid(const Card& card, const HeldNodes& held)
+  {
+    const std::int64_t node = held.nodes.front();
+    if (holders_.is_in_mesh(node) || holders_.is_reference(node))
+      support(card, name_of_held_by_grid(held.components), held);
   }
 
   void supports()
   {
-    std::set<std::int64_t> sets;
+    const ChosenSets chosen = chosen_sets(cards_, "SPC");
+    for (const ChosenSets& of_kind : {chosen, chosen_sets(cards_, "MPC")})
+      std::ranges::copy(of_kind.notes, std::back_inserter(all_.notes));
     for (const Card& card : cards_) {
-      if (card.name() == "GRID" && card.has(7)) {
+      if (card.name() == "GRID" && !held_by_grid(card).empty()) {
         const HeldNodes held{
-            .set = 0, .components = card.components(7), .nodes = {card.integer(1, "ID")}};
-        support(card, name_of_held_by_grid(held.components), held);
+            .set = 0, .components = held_by_grid(card), .nodes = {card.integer(1, "ID")}};
+        support_of_grid(card, held);
       }
       if (card.name() != "SPC" && card.name() != "SPC1") continue;
-      for (const HeldNodes& held : held_nodes(card, deck_)) {
-        sets.insert(held.set);
-        support(card, name_of_held(held.set, held.components), held);
-      }
-      if (sets.size() > 1)
-        card.refuse("belongs to a second set; keep only the set that the analysis uses");
+      for (const HeldNodes& held : held_nodes(card, deck_))
+        if (chosen.sets.contains(held.set))
+          support(card, name_of_held(held.set, held.components), held);
     }
   }
 

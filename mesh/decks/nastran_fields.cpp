@@ -37,7 +37,7 @@ std::string_view Card::field(std::size_t i) const
 
 void Card::refuse(std::string_view why) const
 {
-  throw Error(fmt::format("line {}: {} {}: {}", line_, name_, field(1), why));
+  throw Error(fmt::format("{}: {} {}: {}", place_, name_, field(1), why));
 }
 
 std::int64_t Card::integer(std::size_t i, std::string_view what) const
@@ -125,6 +125,12 @@ void Card::expect_blank(std::size_t first, std::size_t last, std::string_view wh
 void Card::expect_no_more_than(std::size_t n) const
 {
   expect_blank(n + 1, std::max(n + 1, n_fields()), "nothing is known of this field");
+}
+
+void Card::fill(std::size_t i, std::string_view value)
+{
+  if (fields_.size() < i) fields_.resize(i);
+  if (fields_[i - 1].empty()) fields_[i - 1] = value;
 }
 
 void Card::append(const std::vector<std::string>& fields, std::size_t width)

@@ -11,15 +11,22 @@
 namespace chladni::mesh {
 namespace {
 
+// Of DeckSystem::kind.
+constexpr char rectangular = 'R', cylindrical = 'C', spherical = 'S';
+
+bool is_system(const Card& card)
+{
+  return card.name() == "CORD2R" || card.name() == "CORD2C" || card.name() == "CORD2S";
+}
+
 /// Systems that are found one after the other, each after the one that it refers to.
 class Finder {
  public:
   explicit Finder(std::span<const Card> cards)
   {
-    found_[0] = {
-        .origin = {}, .axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, .is_cylindrical = false};
+    found_[0] = {.origin = {}, .axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, .kind = rectangular};
     for (const Card& card : cards) {
-      if (card.name() != "CORD2R" && card.name() != "CORD2C") continue;
+      if (!is_system(card)) continue;
       if (!cards_.emplace(card.integer(1, "CID"), &card).second) card.refuse("is there twice");
     }
   }
@@ -57,9 +64,7 @@ class Finder {
     const Vector y = cross(z, in_plane);
     if (!(norm(y) > 1e-9 * norm(z) * norm(in_plane)))
       card.refuse("its three points are on one line");
-    return {.origin = A,
-            .axes = {unit(cross(y, z)), unit(y), unit(z)},
-            .is_cylindrical = card.name() == "CORD2C"};
+    return {.origin = A, .axes = {unit(cross(y, z)), unit(y), unit(z)}, .kind = card.name().back()};
   }
 
   std::map<std::int64_t, const Card*> cards_;
@@ -77,9 +82,14 @@ DeckSystems nastran_systems(std::span<const Card> cards)
 std::array<double, 3> basic_position(const DeckSystem& system, const std::array<double, 3>& x)
 {
   Vector local = x;
-  if (system.is_cylindrical) {
-    const double theta = x[1] * std::numbers::pi / 180.0;
+  constexpr double degree = std::numbers::pi / 180.0;
+  if (system.kind == cylindrical) {
+    const double theta = x[1] * degree;
     local = {x[0] * std::cos(theta), x[0] * std::sin(theta), x[2]};
+  }
+  if (system.kind == spherical) {  // theta from the z axis, phi about it
+    const double theta = x[1] * degree, phi = x[2] * degree, r = x[0] * std::sin(theta);
+    local = {r * std::cos(phi), r * std::sin(phi), x[0] * std::cos(theta)};
   }
   Vector position = system.origin;
   for (std::size_t axis = 0; axis < 3; ++axis)

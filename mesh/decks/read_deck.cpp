@@ -2,44 +2,65 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <system_error>
+
 #include "common/error.hpp"
 #include "mesh/check_msh.hpp"
 #include "mesh/decks/abaqus.hpp"
-#include "mesh/decks/is_deck.hpp"
 #include "mesh/decks/nastran.hpp"
 
 namespace chladni::mesh {
 namespace {
 
+namespace fs = std::filesystem;
+
+/// Reads the files that a deck includes, by their paths from its folder.
+ReadIncluded beside(const std::string& deck)
+{
+  return [folder = fs::path(deck).parent_path()](const std::string& named) {
+    const fs::path file = folder / named;
+    std::error_code unknown;
+    if (!fs::is_regular_file(file, unknown))
+      throw Error(fmt::format("the included file {} is not there", file.string()));
+    return read_all(file.string());
+  };
+}
+
 /// What `read` makes of the text of the file; errors get its name.
 auto of_text(const MeshOptions& options, auto&& read)
 {
   try {
-    return read(read_all(*options.file));
+    return read(read_all(*options.file), beside(*options.file));
   } catch (const Error& error) {
     throw Error(fmt::format("mesh file {}: {}", *options.file, error.what()));
   }
+}
+
+bool is_abaqus(const MeshOptions& options)
+{
+  return mesh_source(options.file.value()) == MeshSource::abaqus;
 }
 
 }  // namespace
 
 Mesh deck_mesh(const MeshOptions& options)
 {
-  return of_text(options, [&](const std::string& text) {
-    const Deck deck = is_abaqus(*options.file) ? abaqus_deck(abaqus_keywords(text))
-                                               : nastran_deck(nastran_cards(text));
-    return mesh_of(deck, options.line_groups);
+  return of_text(options, [&](const std::string& text, const ReadIncluded& included) {
+    const Deck deck = is_abaqus(options) ? abaqus_deck(abaqus_keywords(text, included))
+                                         : nastran_deck(nastran_cards(text, included));
+    return mesh_of(deck, options);
   });
 }
 
 Declarations declarations_here(const MeshOptions& options, const DeckUnits& units)
 {
-  return of_text(options, [&](const std::string& text) {
-    if (is_abaqus(*options.file)) {
-      const std::vector<Keyword> keywords = abaqus_keywords(text);
+  return of_text(options, [&](const std::string& text, const ReadIncluded& included) {
+    if (is_abaqus(options)) {
+      const std::vector<Keyword> keywords = abaqus_keywords(text, included);
       return abaqus_declarations(keywords, abaqus_deck(keywords), units);
     }
-    const std::vector<Card> cards = nastran_cards(text);
+    const std::vector<Card> cards = nastran_cards(text, included);
     return nastran_declarations(cards, nastran_deck(cards), units);
   });
 }

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
+#include <tuple>
 
 #include "common/error.hpp"
 #include "mesh/element_parts.hpp"
@@ -15,18 +19,95 @@ bool contains(const std::vector<std::string>& names, const std::string& name)
   return std::ranges::find(names, name) != names.end();
 }
 
+bool is_line(const ExchangeMesh& mesh, std::size_t element)
+{
+  return mesh.elements[element].shape == Shape::line;
+}
+
+/// Elements of one type with the same nodes become one, in the groups of all of them.
+void merge_doubled(ExchangeMesh& mesh)
+{
+  using Key = std::tuple<Shape, int, std::vector<std::int64_t>>;
+  std::map<Key, std::size_t> first_of;
+  std::vector<std::size_t> place_of(mesh.elements.size());
+  std::vector<DeckElement> kept;
+  std::vector<std::int64_t> numbers;  // of the first that is doubled, and of its double
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    DeckElement& element = mesh.elements[e];
+    std::vector<std::int64_t> nodes = element.nodes;
+    std::ranges::sort(nodes);
+    const auto [found, is_new] =
+        first_of.emplace(Key{element.shape, element.order, std::move(nodes)}, kept.size());
+    place_of[e] = found->second;
+    if (!is_new && numbers.empty()) numbers = {kept[found->second].number, element.number};
+    if (is_new) kept.push_back(std::move(element));
+  }
+  const std::size_t n_doubled = mesh.elements.size() - kept.size();
+  mesh.elements = std::move(kept);
+  if (n_doubled == 0) return;
+  for (ExchangeGroup& group : mesh.groups) {
+    for (std::size_t& e : group.elements) e = place_of[e];
+    std::ranges::sort(group.elements);
+    group.elements.erase(std::unique(group.elements.begin(), group.elements.end()),
+                         group.elements.end());
+  }
+  mesh.notes.push_back(fmt::format(
+      "{} elements have the nodes of another one of their type (the first are {} and {}): they are "
+      "one element in several groups",
+      n_doubled, numbers[0], numbers[1]));
+}
+
+/// Adds members to the group of their name that holds the same kind, nodes alone included.
+void add_to_group(const ExchangeMesh& mesh, std::vector<ExchangeGroup>& groups,
+                  ExchangeGroup members)
+{
+  const auto kind = [&](const ExchangeGroup& group) {
+    return group.elements.empty() ? 0 : is_line(mesh, group.elements.front()) ? 1 : 2;
+  };
+  const auto same = std::ranges::find_if(groups, [&](const ExchangeGroup& group) {
+    return group.name == members.name && kind(group) == kind(members);
+  });
+  if (same == groups.end()) return groups.push_back(std::move(members));
+  std::ranges::copy(members.nodes, std::back_inserter(same->nodes));
+  std::ranges::copy(members.elements, std::back_inserter(same->elements));
+}
+
+/// Groups of one name and one kind of members become one. Lines that share the name with surfaces
+/// become the group NAME_lines.
+void unite_groups(ExchangeMesh& mesh)
+{
+  std::vector<ExchangeGroup> groups;
+  std::set<std::string> of_surfaces;
+  for (ExchangeGroup& group : mesh.groups) {
+    ExchangeGroup lines{.name = group.name};
+    std::vector<std::size_t> surfaces;
+    for (const std::size_t e : group.elements)
+      (is_line(mesh, e) ? lines.elements : surfaces).push_back(e);
+    if (surfaces.empty()) {
+      add_to_group(mesh, groups, std::move(group));
+      continue;
+    }
+    of_surfaces.insert(group.name);
+    group.elements = std::move(surfaces);
+    add_to_group(mesh, groups, std::move(group));
+    if (!lines.elements.empty()) add_to_group(mesh, groups, std::move(lines));
+  }
+  for (ExchangeGroup& group : groups) {
+    if (group.elements.empty() || !is_line(mesh, group.elements.front())) continue;
+    if (!of_surfaces.contains(group.name)) continue;
+    mesh.notes.push_back(fmt::format(
+        "group \"{0}\" holds surfaces and {1} lines, which are the group \"{0}_lines\" here",
+        group.name, group.elements.size()));
+    group.name += "_lines";
+  }
+  mesh.groups = std::move(groups);
+}
+
 /// 1 or 2, of the elements of a group; 0 where it has none.
 int dimension_of(const ExchangeMesh& mesh, const ExchangeGroup& group)
 {
-  const auto is_line = [&](std::size_t e) { return mesh.elements[e].shape == Shape::line; };
-  const auto n_lines = std::ranges::count_if(group.elements, is_line);
-  if (n_lines != 0 && n_lines != std::ssize(group.elements)) {
-    throw Error(fmt::format(
-        "group \"{}\" holds {} lines and {} surfaces; give each kind a group of its own",
-        group.name, n_lines, std::ssize(group.elements) - n_lines));
-  }
   if (group.elements.empty()) return 0;
-  return n_lines > 0 ? 1 : 2;
+  return is_line(mesh, group.elements.front()) ? 1 : 2;
 }
 
 /// Its name, or NAME_nodes where a group of elements is called so.
@@ -72,8 +153,8 @@ class SectionGroups {
  private:
   bool has_section(std::size_t element, int group) const
   {
-    const bool is_line = mesh_.elements[element].shape == Shape::line;
-    return contains(is_line ? options_.line_groups : options_.shell_groups, name(group));
+    return contains(is_line(mesh_, element) ? options_.line_groups : options_.shell_groups,
+                    name(group));
   }
 
   void take(std::size_t element, int group)
@@ -151,9 +232,12 @@ ExchangeGroup& exchange_group(ExchangeMesh& mesh, const std::string& name, Membe
   return mesh.groups.back();
 }
 
-Deck deck_of(const ExchangeMesh& mesh, const MeshOptions& options)
+Deck deck_of(ExchangeMesh mesh, const MeshOptions& options)
 {
-  Deck deck{.nodes = mesh.nodes, .elements = {}, .groups = {}, .notes = mesh.notes};
+  merge_doubled(mesh);
+  unite_groups(mesh);
+  Deck deck{
+      .nodes = mesh.nodes, .elements = {}, .groups = {}, .couplings = {}, .notes = mesh.notes};
   add_groups(deck, mesh);
   const std::vector<int> group_of = SectionGroups(mesh, deck, options).find();
   const int rest = group_of_the_rest(deck);
@@ -170,6 +254,11 @@ Deck deck_of(const ExchangeMesh& mesh, const MeshOptions& options)
   if (n_left_out > 0)
     deck.notes.push_back(fmt::format("{} lines of no group are left out", n_left_out));
   return deck;
+}
+
+Mesh mesh_of(ExchangeMesh mesh, const MeshOptions& options)
+{
+  return mesh_of(deck_of(std::move(mesh), options), options);
 }
 
 }  // namespace chladni::mesh

@@ -43,11 +43,16 @@ enum class Members { nodes, elements };
 /// The group of this name and kind of members, which is added if missing.
 ExchangeGroup& exchange_group(ExchangeMesh& mesh, const std::string& name, Members members);
 
-/// Gives each element one group: that with a section (`shell_groups`, `line_groups`), else the
-/// first that contains it. All groups hold the nodes of their elements. If no surface is in a
-/// group, all form the group "surfaces"; lines without a group are left out.
-/// @throws chladni::Error naming groups that mix lines and surfaces or share a name, and an element
-///         with two sections.
-Deck deck_of(const ExchangeMesh& mesh, const MeshOptions& options);
+/// Makes elements of one type with the same nodes one element, in the groups of all of them, and
+/// gives each element one group: that with a section (`shell_groups`, `line_groups`), else the
+/// first that contains it. All groups hold the nodes of their elements; groups of one name and kind
+/// are one. Lines of a group that holds surfaces too form the group NAME_lines. If no surface is in
+/// a group, all form the group "surfaces"; lines without a group are left out.
+/// @throws chladni::Error naming groups that share a name, and an element with two sections.
+Deck deck_of(ExchangeMesh mesh, const MeshOptions& options);
+
+/// Makes the mesh by its deck.
+/// @throws chladni::Error as `deck_of` and the `mesh_of` of a deck.
+Mesh mesh_of(ExchangeMesh mesh, const MeshOptions& options);
 
 }  // namespace chladni::mesh

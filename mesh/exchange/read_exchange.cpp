@@ -4,7 +4,6 @@
 
 #include "common/error.hpp"
 #include "mesh/check_msh.hpp"
-#include "mesh/exchange/is_exchange.hpp"
 #include "mesh/exchange/med.hpp"
 #include "mesh/exchange/unv.hpp"
 #include "mesh/exchange/vtu.hpp"
@@ -16,10 +15,10 @@ Mesh exchange_mesh(const MeshOptions& options)
   const std::string& file = *options.file;
   try {
     const std::string bytes = read_all(file);
-    const ExchangeMesh mesh = is_med(file)   ? med_mesh(bytes)
-                              : is_unv(file) ? unv_mesh(bytes, options.length_unit)
-                                             : vtu_mesh(bytes);
-    return mesh_of(deck_of(mesh, options), options.line_groups);
+    const MeshSource source = mesh_source(file).value();
+    if (source == MeshSource::med) return mesh_of(med_mesh(bytes), options);
+    if (source == MeshSource::vtu) return mesh_of(vtu_mesh(bytes), options);
+    return mesh_of(unv_mesh(bytes, options.length_unit), options);
   } catch (const Error& error) {
     throw Error(fmt::format("mesh file {}: {}", file, error.what()));
   }

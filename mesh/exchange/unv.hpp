@@ -15,7 +15,7 @@ struct UnvDataset {
   std::vector<std::string_view> lines;
 };
 
-/// Divides a universal file into datasets, which refer to `text`.
+/// Divides a universal file into datasets, which refer to `text`. Words between them are left out.
 /// @throws chladni::Error naming a line at which a dataset should begin, or a dataset that does not
 ///         end.
 std::vector<UnvDataset> unv_datasets(const std::string& text);

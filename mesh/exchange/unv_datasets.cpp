@@ -5,6 +5,17 @@
 #include "mesh/exchange/unv.hpp"
 
 namespace chladni::mesh {
+namespace {
+
+/// Whether a line has nothing but numbers, as those of datasets. Words of people stand between
+/// datasets too.
+bool is_of_numbers(std::string_view words)
+{
+  return words.find_first_not_of("0123456789+-.eEdD \t") == std::string_view::npos &&
+         words.find_first_of("0123456789") != std::string_view::npos;
+}
+
+}  // namespace
 
 std::vector<UnvDataset> unv_datasets(const std::string& text)
 {
@@ -25,7 +36,7 @@ std::vector<UnvDataset> unv_datasets(const std::string& text)
       state = State::inside;
     } else if (words == "-1") {
       state = State::at_number;
-    } else if (!words.empty()) {
+    } else if (is_of_numbers(words)) {
       throw Error(
           fmt::format("line {}: \"{}\" stands where a dataset begins, with -1 in a line of its own",
                       number, words.substr(0, 40)));

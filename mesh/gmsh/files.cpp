@@ -20,10 +20,12 @@ namespace {
 using Statements = std::vector<std::string>;
 
 /// A .geo in memory that sets the parameters before it includes another one, and reads them
-/// afterwards; Gmsh's own -setnumber would hold for the whole process.
-class GeoWithParameters {
+/// afterwards; Gmsh's own -setnumber would hold for the whole process. Gmsh 4.8.4 does not obey the
+/// last statement of a file that it opens and whose last line does not end, but that of an included
+/// one.
+class GeoAround {
  public:
-  explicit GeoWithParameters(const MeshOptions& options)
+  explicit GeoAround(const MeshOptions& options)
       : descriptor_{::memfd_create("parameters", MFD_CLOEXEC)}
   {
     std::string code;
@@ -35,9 +37,9 @@ class GeoWithParameters {
     if (::write(descriptor_, code.data(), code.size()) != std::ssize(code))
       throw Error("cannot set the parameters of a .geo: no file in memory");
   }
-  ~GeoWithParameters() { ::close(descriptor_); }
-  GeoWithParameters(const GeoWithParameters&) = delete;
-  GeoWithParameters& operator=(const GeoWithParameters&) = delete;
+  ~GeoAround() { ::close(descriptor_); }
+  GeoAround(const GeoAround&) = delete;
+  GeoAround& operator=(const GeoAround&) = delete;
 
   std::string path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
 
@@ -52,8 +54,14 @@ bool is_name(const std::string& text)
          std::ranges::all_of(text, is_of_a_name);
 }
 
+/// Whether the file is included by another one, which needs its name as a text.
+bool is_included(const MeshOptions& options, const std::string& text)
+{
+  return !options.parameters.empty() || !text.ends_with('\n');
+}
+
 /// What stands in GEO code must not end its text or its statement.
-void check_parameters_can_be_set(const MeshOptions& options)
+void check_can_be_included(const MeshOptions& options)
 {
   for (const auto& [name, value] : options.parameters) {
     if (is_name(name)) continue;
@@ -63,12 +71,11 @@ void check_parameters_can_be_set(const MeshOptions& options)
                     *options.file, name));
   }
   const auto breaks = [](unsigned char c) { return c == '"' || std::iscntrl(c) != 0; };
-  if (options.parameters.empty() ||
-      std::ranges::none_of(std::filesystem::absolute(*options.file).string(), breaks))
-    return;
+  if (std::ranges::none_of(std::filesystem::absolute(*options.file).string(), breaks)) return;
   throw Error(
-      fmt::format("mesh file {}: a geometry with parameters cannot stand in a folder with a "
-                  "quote or a control character in its name; rename it",
+      fmt::format("mesh file {}: a geometry with parameters, or without a line break at its end, "
+                  "cannot stand in a folder with a quote or a control character in its name; "
+                  "rename it",
                   *options.file));
 }
 
@@ -132,18 +139,19 @@ void check_does_not_mesh_itself(const std::string& file, const Statements& code)
 std::vector<std::string> open_geo(const MeshOptions& options)
 {
   const std::string& file = *options.file;
-  const Statements code = geo_statements(read_all(file));
+  const std::string text = read_all(file);
+  const Statements code = geo_statements(text);
   if (options.trust != Trust::owner) check_commands(file, code);
-  check_parameters_can_be_set(options);
+  if (is_included(options, text)) check_can_be_included(options);
   check_does_not_mesh_itself(file, code);
   check_parameters_are_used(options, code);
   gmsh::option::setNumber("Mesh.MeshSizeFactor", options.size_factor);
-  if (options.parameters.empty()) {
-    gmsh::open(file);
-  } else {
-    const GeoWithParameters with_parameters(options);
-    gmsh::open(with_parameters.path());
+  if (is_included(options, text)) {
+    const GeoAround around(options);
+    gmsh::open(around.path());
     check_parameters_held(options);
+  } else {
+    gmsh::open(file);
   }
   return replace_algorithm_8(code);
 }

@@ -12,6 +12,7 @@
 
 #include "common/error.hpp"
 #include "mesh/complete_elements.hpp"
+#include "mesh/doubled_elements.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/split_quadrilaterals.hpp"
 
@@ -138,32 +139,100 @@ NodeIndex read_nodes(Mesh& mesh)
 }
 
 /// (dimension, tag) of the entities with elements -> index of their physical group in mesh.groups:
-/// surfaces (the first group counts) and the curves of the line groups.
+/// surfaces and the curves of the line groups. The group with a section counts, else the first one.
 using GroupOfEntity = std::map<std::pair<int, int>, int>;
 
-GroupOfEntity read_groups(Mesh& mesh, const NodeIndex& index,
-                          const std::vector<std::string>& line_groups)
+/// Physical groups of one dimension and one name, which are one group.
+struct NamedGroup {
+  int dimension;
+  std::string name;
+  std::vector<int> tags;
+};
+
+/// The groups of all dimensions. Where groups of several dimensions have one name, that of the
+/// highest keeps it, and the others are called NAME_lines and NAME_nodes.
+std::vector<NamedGroup> named_groups(std::vector<std::string>& notes)
 {
-  GroupOfEntity group_of_entity;
+  std::vector<NamedGroup> groups;
   for (int dimension = 0; dimension <= 2; ++dimension) {
     for (const auto& [dim, tag] : physical_entities(dimension)) {
-      std::vector<std::size_t> tags;
-      std::vector<double> coordinates;
-      gmsh::model::mesh::getNodesForPhysicalGroup(dim, tag, tags, coordinates);
-      Group group{.name = physical_name(dim, tag), .dimension = dim, .nodes = {}};
-      for (const std::size_t t : tags) group.nodes.push_back(index.at(t));
-      std::ranges::sort(group.nodes);
-      group.nodes.erase(std::unique(group.nodes.begin(), group.nodes.end()), group.nodes.end());
-      const bool is_line_group =
-          dim == 1 && std::ranges::find(line_groups, group.name) != line_groups.end();
-      if (dim == 2 || is_line_group) {
-        std::vector<int> entities;
-        gmsh::model::getEntitiesForPhysicalGroup(dim, tag, entities);
-        for (const int e : entities)
-          group_of_entity.emplace(std::pair{dim, e}, static_cast<int>(mesh.groups.size()));
-      }
-      mesh.groups.push_back(std::move(group));
+      const std::string name = physical_name(dim, tag);
+      const auto same = std::ranges::find_if(groups, [&](const NamedGroup& group) {
+        return group.dimension == dimension && group.name == name;
+      });
+      if (same == groups.end())
+        groups.push_back({dimension, name, {tag}});
+      else
+        same->tags.push_back(tag);
     }
+  }
+  for (NamedGroup& group : groups) {
+    const auto is_higher = [&](const NamedGroup& other) {
+      return other.name == group.name && other.dimension > group.dimension;
+    };
+    if (std::ranges::none_of(groups, is_higher)) continue;
+    const std::string name = group.name;
+    while (std::ranges::count(groups, group.name, &NamedGroup::name) > 1)
+      group.name += group.dimension == 1 ? "_lines" : "_nodes";
+    notes.push_back(fmt::format("the group \"{}\" of {} is called \"{}\" here", name,
+                                group.dimension == 1 ? "curves" : "points", group.name));
+  }
+  return groups;
+}
+
+bool has_name(const std::vector<std::string>& names, const std::string& name)
+{
+  return std::ranges::find(names, name) != names.end();
+}
+
+/// A group with the nodes of its entities, ascending.
+Group nodes_of(const NamedGroup& named, const NodeIndex& index)
+{
+  Group group{.name = named.name, .dimension = named.dimension, .nodes = {}};
+  for (const int tag : named.tags) {
+    std::vector<std::size_t> tags;
+    std::vector<double> coordinates;
+    gmsh::model::mesh::getNodesForPhysicalGroup(named.dimension, tag, tags, coordinates);
+    for (const std::size_t t : tags) group.nodes.push_back(index.at(t));
+  }
+  std::ranges::sort(group.nodes);
+  group.nodes.erase(std::unique(group.nodes.begin(), group.nodes.end()), group.nodes.end());
+  return group;
+}
+
+/// Puts the entities of a group into it, unless another one with a section has them.
+/// @param with_section  names of the groups with a section
+void take_entities(const Mesh& mesh, const NamedGroup& named,
+                   const std::vector<std::string>& with_section, GroupOfEntity& group_of_entity)
+{
+  const auto group = static_cast<int>(mesh.groups.size());
+  for (const int tag : named.tags) {
+    std::vector<int> entities;
+    gmsh::model::getEntitiesForPhysicalGroup(named.dimension, tag, entities);
+    for (const int e : entities) {
+      const auto [taken, is_new] = group_of_entity.emplace(std::pair{named.dimension, e}, group);
+      if (is_new || taken->second == group || !has_name(with_section, named.name)) continue;
+      const std::string& other = mesh.groups[std::size_t(taken->second)].name;
+      if (has_name(with_section, other)) {
+        throw Error(fmt::format(
+            "{} {} is in the groups \"{}\" and \"{}\", which have a section each; take it out of "
+            "one",
+            named.dimension == 1 ? "curve" : "surface", e, other, named.name));
+      }
+      taken->second = group;
+    }
+  }
+}
+
+GroupOfEntity read_groups(Mesh& mesh, const NodeIndex& index, const MeshOptions& options)
+{
+  GroupOfEntity group_of_entity;
+  for (const NamedGroup& named : named_groups(mesh.notes)) {
+    const bool is_surface = named.dimension == 2;
+    const auto& with_section = is_surface ? options.shell_groups : options.line_groups;
+    if (is_surface || (named.dimension == 1 && has_name(options.line_groups, named.name)))
+      take_entities(mesh, named, with_section, group_of_entity);
+    mesh.groups.push_back(nodes_of(named, index));
   }
   return group_of_entity;
 }
@@ -248,18 +317,19 @@ std::string path_of_gmsh()
   return function != nullptr && dladdr(function, &home) != 0 ? home.dli_fname : "";
 }
 
-Mesh current_model(const std::vector<std::string>& line_groups)
+Mesh current_model(const MeshOptions& options)
 {
   Mesh mesh;
   const NodeIndex index = read_nodes(mesh);
-  GroupOfEntity group_of_entity = read_groups(mesh, index, line_groups);
+  GroupOfEntity group_of_entity = read_groups(mesh, index, options);
   std::vector<std::pair<int, int>> surfaces;
   gmsh::model::getEntities(surfaces, 2);
   for (const auto& surface : surfaces) group_of_entity.emplace(surface, -1);  // in no group
   for (const auto& [entity, group] : group_of_entity) read_elements(mesh, index, entity, group);
   if (mesh.blocks.empty()) refuse_wrong_dimension();
+  merge_doubled_elements(mesh, options);
   add_inner_nodes(mesh);
-  drop_unused_nodes(mesh);
+  drop_unused_nodes(mesh, options.coupled_groups);
   note_what_is_left_out(mesh);
   return mesh;
 }
@@ -280,15 +350,15 @@ const std::vector<Way> other_ways{
 };
 
 /// Meshes the open model in two dimensions.
-Mesh generated_elements(int order, const std::vector<std::string>& line_groups)
+Mesh generated_elements(int order, const MeshOptions& options)
 {
   gmsh::model::mesh::generate(2);
   if (order > 1) gmsh::model::mesh::setOrder(order);
-  return split_flat_corners(current_model(line_groups));
+  return split_flat_corners(current_model(options));
 }
 
 /// The mesh by another way, with a note; absent if its elements are no better.
-std::optional<Mesh> mended(const Way& way, int order, const std::vector<std::string>& line_groups)
+std::optional<Mesh> mended(const Way& way, int order, const MeshOptions& options)
 {
   std::string words;
   for (const auto& [option, value] : way) {
@@ -297,7 +367,7 @@ std::optional<Mesh> mended(const Way& way, int order, const std::vector<std::str
   }
   try {
     gmsh::model::mesh::clear();
-    Mesh mesh = generated_elements(order, line_groups);
+    Mesh mesh = generated_elements(order, options);
     if (!complaint_about(mesh).empty()) return std::nullopt;
     mesh.notes.push_back(fmt::format(
         "Gmsh's first elements lay on one another or were folded; with {} they do not", words));
@@ -310,31 +380,30 @@ std::optional<Mesh> mended(const Way& way, int order, const std::vector<std::str
 }
 
 /// Meshes the open model, anew if the elements cannot be used. If no way helps, these are returned.
-Mesh best_elements(int order, const std::vector<std::string>& line_groups)
+Mesh best_elements(int order, const MeshOptions& options)
 {
-  Mesh first = generated_elements(order, line_groups);
+  Mesh first = generated_elements(order, options);
   if (complaint_about(first).empty()) return first;
   std::map<std::string, double> before;
   for (const Way& way : other_ways)
     for (const auto& [option, value] : way) gmsh::option::getNumber(option, before[option]);
   for (const Way& way : other_ways) {
     for (const auto& [option, value] : before) gmsh::option::setNumber(option, value);
-    if (std::optional<Mesh> mesh = mended(way, order, line_groups)) return *std::move(mesh);
+    if (std::optional<Mesh> mesh = mended(way, order, options)) return *std::move(mesh);
   }
   return first;
 }
 
 }  // namespace
 
-Mesh mesh_with_gmsh(const std::function<void()>& build, int order,
-                    const std::vector<std::string>& line_groups)
+Mesh mesh_with_gmsh(const std::function<void()>& build, int order, const MeshOptions& options)
 {
   const Session session;
   try {
     set_meshing_options();
     build();
-    Mesh mesh = order > 0 && n_elements(2) == 0 ? best_elements(order, line_groups)
-                                                : split_flat_corners(current_model(line_groups));
+    Mesh mesh = order > 0 && n_elements(2) == 0 ? best_elements(order, options)
+                                                : split_flat_corners(current_model(options));
     mesh.made_by = path_of_gmsh();
     return mesh;
   } catch (const Error&) {

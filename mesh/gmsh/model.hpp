@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "mesh/mesh_options.hpp"
 
 namespace chladni::mesh {
 
@@ -13,10 +14,9 @@ namespace chladni::mesh {
 /// one another or are folded, other options of Gmsh are tried, and a note says which helped. What
 /// Gmsh prints is not for the user.
 /// @param order        of the elements; 0 keeps that of the model
-/// @param line_groups  groups of curves whose elements are kept; other curves give groups of nodes
-///                     only
+/// @param options  groups with sections, and coupled ones; curves of other groups than
+///                 `line_groups` give groups of nodes only
 /// @throws chladni::Error with Gmsh's message.
-Mesh mesh_with_gmsh(const std::function<void()>& build, int order,
-                    const std::vector<std::string>& line_groups = {});
+Mesh mesh_with_gmsh(const std::function<void()>& build, int order, const MeshOptions& options = {});
 
 }  // namespace chladni::mesh

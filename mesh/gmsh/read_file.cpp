@@ -17,25 +17,14 @@ namespace chladni::mesh {
 
 namespace {
 
-enum class Format { msh, geo, step, own };
-
-Format format_of(const std::string& file)
+MeshSource source_of(const std::string& file)
 {
   if (!std::filesystem::is_regular_file(file)) {
-    throw Error(fmt::format(
-        "mesh file {} does not exist; give the path of a .msh, .geo, .step, .unv, .med, .vtu, "
-        ".bdf, .nas, .dat or .inp",
-        file));
+    throw Error(
+        fmt::format("mesh file {} does not exist; give the path of a {}", file, extensions_of()));
   }
-  if (has_own_reader(file)) return Format::own;
-  const std::string extension = std::filesystem::path(file).extension().string();
-  if (extension == ".msh") return Format::msh;
-  if (extension == ".geo") return Format::geo;
-  if (extension == ".step" || extension == ".stp") return Format::step;
-  throw Error(
-      fmt::format("mesh file {}: only .msh, .geo, .step, .unv, .med and .vtu files and decks of "
-                  "Nastran (.bdf, .nas, .dat) and Abaqus (.inp) can be read",
-                  file));
+  if (const auto source = mesh_source(file)) return *source;
+  throw Error(fmt::format("mesh file {}: its name must end with {}", file, extensions_of()));
 }
 
 /// Gmsh runs the code of NAME.opt before it is done with NAME.
@@ -70,18 +59,18 @@ class Complaints {
 
 /// Opens the file in Gmsh, with its groups.
 /// @return notes for the user
-std::vector<std::string> open(const MeshOptions& options, Format format)
+std::vector<std::string> open(const MeshOptions& options, MeshSource source)
 {
   if (options.trust != Trust::owner) check_no_options_beside(*options.file);
-  if (format == Format::msh) check_msh_is_whole(*options.file);
-  if (format == Format::step) return open_step(options);
+  if (source == MeshSource::msh) check_msh_is_whole(*options.file);
+  if (source == MeshSource::step) return open_step(options);
   std::vector<std::string> notes;
-  if (format == Format::geo) {
+  if (source == MeshSource::geo) {
     const Complaints complaints;
     notes = open_geo(options);
     complaints.refuse_errors();
   }
-  if (format == Format::msh) gmsh::open(*options.file);
+  if (source == MeshSource::msh) gmsh::open(*options.file);
   add_entity_groups(options);
   return notes;
 }
@@ -90,20 +79,20 @@ std::vector<std::string> open(const MeshOptions& options, Format format)
 
 Mesh read_file(const MeshOptions& options, const std::function<void()>& before_reading)
 {
-  const Format format = format_of(*options.file);
-  if (format == Format::own) {
+  const MeshSource source = source_of(*options.file);
+  if (has_own_reader(*options.file)) {
     before_reading();
     return read_here(options);
   }
-  const int order = format == Format::msh ? 0 : options.element_order.value_or(3);
-  const double unit = format == Format::step ? 1e-3 : options.length_unit;
+  const int order = source == MeshSource::msh ? 0 : options.element_order.value_or(3);
+  const double unit = source == MeshSource::step ? 1e-3 : options.length_unit;
   std::vector<std::string> notes;
   const auto build = [&] {
     before_reading();
-    notes = open(options, format);
+    notes = open(options, source);
     set_local_sizes(options, unit);
   };
-  Mesh mesh = mesh_with_gmsh(build, order, options.line_groups);
+  Mesh mesh = mesh_with_gmsh(build, order, options);
   mesh.notes.insert(mesh.notes.begin(), notes.begin(), notes.end());
   scale(mesh, unit);
   return mesh;

@@ -123,7 +123,7 @@ std::vector<std::string> open_step(const MeshOptions& options)
   gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
   gmsh::model::add("step");
   std::vector<Entity> imported;
-  occ::importShapes(*options.file, imported, false);
+  occ::importShapes(*options.file, imported, false, "step");
   occ::synchronize();
   check_shells(*options.file);
   std::vector<std::vector<Entity>> of_groups;

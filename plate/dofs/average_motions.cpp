@@ -135,6 +135,18 @@ double size_of(const NodeMotions& motions, const std::vector<int>& nodes, int re
   return size > 0.0 ? size : 1.0;
 }
 
+/// The mean of a group must not move its own nodes, nor those of another one.
+void refuse_followers(const NodeMotions& motions, const mesh::Mesh& mesh, const Coupling& coupling)
+{
+  for (const int node : mesh::find_group(mesh, coupling.group).nodes) {
+    const int followed = motions.reference(node);
+    if (followed < motions.n_mesh_nodes() || motions.number(followed) >= 0) continue;
+    throw Error(fmt::format(
+        "{}: node {} of its group follows the mean \"{}\"; take it out of one of both groups",
+        describe(coupling), mesh.node_numbers[node], motions.reference_name(followed)));
+  }
+}
+
 /// Numbers of one group must not be in another average.
 void claim(const Blocks& A, std::map<int, int>& claimed, int index,
            std::span<const Coupling> couplings)
@@ -196,6 +208,7 @@ NodeMotions average_motions(const mesh::Mesh& mesh, std::span<const Coupling> co
     if (couplings[i].kind != CouplingKind::averaging) continue;
     const std::vector<int>& group = mesh::find_group(mesh, couplings[i].group).nodes;
     const int reference = motions.reference_node(couplings[i].name).value();
+    refuse_followers(motions, mesh, couplings[i]);
     const Blocks A = mean_motion(motions, group_shares(mesh, couplings[i].group), reference);
     claim(A, claimed, i, couplings);
     const Pivots pivots = choose_pivots(A, size_of(motions, group, reference), couplings[i]);

@@ -65,12 +65,18 @@ class Following {
         coupling_(mesh.n_nodes(), -1)
   {}
 
+  /// Of all couplings, before any of them is followed.
+  void add_reference_nodes();
   void add(int index);
   CoupledNodes follow_chains() &&;
 
  private:
   void check(const Coupling& coupling) const;
-  int add_reference_node(const Coupling& coupling);
+  bool is_coupling(const std::string& name) const
+  {
+    return std::ranges::find(couplings_, name, &Coupling::name) != couplings_.end();
+  }
+  void follow_one_node(int index);
   void add_link(int index);
   void follow(int node, int parent, int index);
 
@@ -83,11 +89,11 @@ class Following {
 void Following::check(const Coupling& coupling) const
 {
   for (const std::string& group : {coupling.group, coupling.to}) {
-    if (group.empty()) continue;
+    if (group.empty() || (group == coupling.to && is_coupling(group))) continue;
     if (mesh::find_group(mesh_, group).nodes.empty())
       throw Error(fmt::format("{}: group \"{}\" has no nodes", describe(coupling), group));
   }
-  if (coupling.kind == CouplingKind::link) return;
+  if (!coupling.has_reference_node()) return;
   const bool used =
       std::ranges::find(mesh_.groups, coupling.name, &mesh::Group::name) != mesh_.groups.end();
   if (used || nodes_.reference_node(coupling.name)) {
@@ -96,13 +102,17 @@ void Following::check(const Coupling& coupling) const
   }
 }
 
-int Following::add_reference_node(const Coupling& coupling)
+void Following::add_reference_nodes()
 {
-  nodes_.positions.push_back(centre(mesh_, mesh::find_group(mesh_, coupling.group)));
-  nodes_.references.push_back(-1);
-  nodes_.names_followed.emplace_back();
-  nodes_.reference_names.push_back(coupling.name);
-  return nodes_.n_nodes() - 1;
+  for (const Coupling& coupling : couplings_) {
+    check(coupling);
+    if (!coupling.has_reference_node()) continue;
+    const mesh::Group& group = mesh::find_group(mesh_, coupling.group);
+    nodes_.positions.push_back(coupling.at ? *coupling.at : centre(mesh_, group));
+    nodes_.references.push_back(-1);
+    nodes_.names_followed.emplace_back();
+    nodes_.reference_names.push_back(coupling.name);
+  }
 }
 
 void Following::follow(int node, int parent, int index)
@@ -115,7 +125,24 @@ void Following::follow(int node, int parent, int index)
   const Coupling& coupling = couplings_[index];
   coupling_[node] = index;
   nodes_.references[node] = parent;
-  nodes_.names_followed[node] = coupling.kind == CouplingKind::link ? coupling.to : coupling.name;
+  nodes_.names_followed[node] = coupling.has_reference_node() ? coupling.name : coupling.to;
+}
+
+void Following::follow_one_node(int index)
+{
+  const Coupling& coupling = couplings_[index];
+  const std::vector<int> leaders = nodes_.named_nodes(mesh_, coupling.to);
+  if (leaders.size() != 1) {
+    throw Error(fmt::format("{}: \"{}\" has {} nodes; a rigid body follows one, or a coupling",
+                            describe(coupling), coupling.to, leaders.size()));
+  }
+  for (const int node : mesh::find_group(mesh_, coupling.group).nodes) {
+    if (node == leaders.front()) {
+      throw Error(fmt::format("{}: node {} belongs to both groups", describe(coupling),
+                              mesh_.node_numbers[node]));
+    }
+    follow(node, leaders.front(), index);
+  }
 }
 
 void Following::add_link(int index)
@@ -143,12 +170,11 @@ void Following::add_link(int index)
 void Following::add(int index)
 {
   const Coupling& coupling = couplings_[index];
-  check(coupling);
   if (coupling.kind == CouplingKind::link) return add_link(index);
-  const int reference = add_reference_node(coupling);
+  if (!coupling.has_reference_node()) return follow_one_node(index);
   if (coupling.kind == CouplingKind::averaging) return;
   for (const int node : mesh::find_group(mesh_, coupling.group).nodes)
-    follow(node, reference, index);
+    follow(node, nodes_.reference_node(coupling.name).value(), index);
 }
 
 /// A rigid body on a rigid body is one on the last of the chain.
@@ -196,14 +222,15 @@ std::vector<int> CoupledNodes::named_nodes(const mesh::Mesh& mesh, const std::st
 
 std::string describe(const Coupling& coupling)
 {
-  return coupling.kind == CouplingKind::link
-             ? fmt::format("link of \"{}\" to \"{}\"", coupling.group, coupling.to)
-             : fmt::format("coupling \"{}\"", coupling.name);
+  return coupling.has_reference_node()
+             ? fmt::format("coupling \"{}\"", coupling.name)
+             : fmt::format("link of \"{}\" to \"{}\"", coupling.group, coupling.to);
 }
 
 CoupledNodes follow_references(const mesh::Mesh& mesh, std::span<const Coupling> couplings)
 {
   Following following(mesh, couplings);
+  following.add_reference_nodes();
   for (int i = 0; i < std::ssize(couplings); ++i) following.add(i);
   return std::move(following).follow_chains();
 }

@@ -53,6 +53,7 @@ class Refiner {
   RefinedMesh result() &&
   {
     for (std::size_t b = 0; b < old_.blocks.size(); ++b) add_block(static_cast<int>(b));
+    keep_free_nodes();
     for (std::size_t g = 0; g < old_.groups.size(); ++g) add_group(g);
     return std::move(new_);
   }
@@ -182,6 +183,22 @@ class Refiner {
     new_.mesh.positions.push_back(old_.positions[static_cast<std::size_t>(old)]);
     new_.places.push_back({work.block, work.element, work.shapes.row(place)});
     return node;
+  }
+
+  /// Nodes of no element, which follow others, stay; nothing is interpolated there.
+  void keep_free_nodes()
+  {
+    std::vector<char> is_free(old_.positions.size(), 1);
+    for (const ElementBlock& block : old_.blocks)
+      for (const int node : block.nodes) is_free[static_cast<std::size_t>(node)] = 0;
+    for (std::size_t node = 0; node < is_free.size(); ++node) {
+      if (is_free[node] == 0) continue;
+      same_[node] = new_.mesh.n_nodes();
+      new_.mesh.node_numbers.push_back(old_.node_numbers[node]);
+      new_.mesh.positions.push_back(old_.positions[node]);
+      const Index n = old_.blocks.front().nodes_per_element;
+      new_.places.push_back({0, 0, Eigen::RowVectorXd::Zero(n)});
+    }
   }
 
   int add_node(const Work& work, int place)

@@ -27,7 +27,8 @@ struct RefinedMesh {
   };
 
   mesh::Mesh mesh;
-  /// [n_nodes] Each node in one of the elements of the original that contain it.
+  /// [n_nodes] Each node in one of the elements of the original that contain it. Nodes of no
+  /// element have shapes of zero.
   std::vector<Place> places;
 };
 

@@ -120,6 +120,12 @@ constexpr Key mesh_rows[] = {
      "files: nodes of unconnected elements at one place",
      {},
      "refuse | merge | keep"},
+    {"mesh.doubled_elements",
+     word,
+     "refuse",
+     "decks: elements of one type with the same nodes",
+     {},
+     "refuse | merge | keep"},
     {"mesh.merge_tolerance", number, "1e-6 of the extent", "files: distance of nodes at one place",
      length},
 };

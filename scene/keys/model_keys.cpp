@@ -77,9 +77,13 @@ constexpr Key model_rows[] = {
      "beam: towards its z axis, [x, y, z]"},
     {"coupling", tables, "none", "[couplings](sections_and_couplings.md)"},
     {"coupling.type", word, "required", "how the group follows", {}, "rigid | averaging | link"},
-    {"coupling.name", text, "required, except for a link", "of the reference node that it makes"},
+    {"coupling.name", text, "required without `to`", "of the reference node that it makes"},
     {"coupling.group", text, "required", "nodes that are coupled"},
-    {"coupling.to", text, "required for a link", "group whose nearest nodes are followed"},
+    {"coupling.to", text, "required for a link",
+     "link: group whose nearest nodes are followed; rigid: coupling, or group of one node, that "
+     "all "
+     "follow"},
+    {"coupling.at", numbers, "the centre of the nodes", "of the reference node, [x, y, z]", place},
     {"mass", tables, "none", "[lumped masses](beams.md)"},
     {"mass.at", text, "required", "group or coupling"},
     {"mass.mass", number, "required", "at each node", {.above = 0.0, .unit = "kg"}},

@@ -14,7 +14,7 @@ void feed_nastran(const std::string& text)
 {
   const std::vector<Card> cards = nastran_cards(text);
   const Deck deck = nastran_deck(cards);
-  mesh_of(deck, {"pbar_8"});
+  mesh_of(deck, {.line_groups = {"pbar_8"}});
   nastran_declarations(cards, deck, {.length = 1e-3, .force = 1.0});
 }
 
@@ -22,7 +22,7 @@ void feed_abaqus(const std::string& text)
 {
   const std::vector<Keyword> keywords = abaqus_keywords(text);
   const Deck deck = abaqus_deck(keywords);
-  mesh_of(deck, {"RIB"});
+  mesh_of(deck, {.line_groups = {"RIB"}});
   abaqus_declarations(keywords, deck, {.length = 1e-3, .force = 1.0});
 }
 

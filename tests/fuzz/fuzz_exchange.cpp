@@ -14,12 +14,12 @@ const MeshOptions options{.line_groups = {"root"}, .shell_groups = {"plate", "fa
 
 void feed_unv(const std::string& text)
 {
-  mesh_of(deck_of(unv_mesh(text, 1e-3), options), options.line_groups);
+  mesh_of(unv_mesh(text, 1e-3), options);
 }
 
 void feed_vtu(const std::string& text)
 {
-  mesh_of(deck_of(vtu_mesh(text), options), options.line_groups);
+  mesh_of(vtu_mesh(text), options);
 }
 
 }  // namespace

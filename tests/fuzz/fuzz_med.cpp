@@ -25,8 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   constexpr std::uintmax_t most = 1 << 20;  // of the file: some damage writes long datasets
   if (std::filesystem::file_size(file.path()) > most) return 0;
   try {
-    mesh::mesh_of(mesh::deck_of(mesh::med_mesh(fuzz::bytes_of(file.path())), options),
-                  options.line_groups);
+    mesh::mesh_of(mesh::med_mesh(fuzz::bytes_of(file.path())), options);
   } catch (const Error&) {
   }
   return 0;

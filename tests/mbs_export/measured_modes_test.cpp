@@ -123,21 +123,35 @@ TEST_F(MeasuredModesFile, RefusesWhatItDoesNotKnowByItsLine)
   EXPECT_NE(refused(metric + shapes).find("node 7"), std::string::npos);
   EXPECT_NE(refused(metric + nodes).find("no mode shapes"), std::string::npos);
   const std::string whole = metric + nodes + shapes;
-  EXPECT_NE(refused(changed(whole, "    55\n", "    58\n")).find("dataset 58"), std::string::npos);
   EXPECT_NE(refused(changed(whole, "    15\n", "    15b\n")).find(":8: "), std::string::npos);
   EXPECT_NE(refused(changed(whole, "  1.25500E+02", "        1e,25")).find(":21: "),
             std::string::npos);
-  EXPECT_NE(refused(changed(whole, "1         2         2", "1         5         2"))
-                .find("analysis type 5"),
-            std::string::npos);
   EXPECT_NE(refused(whole.substr(0, whole.size() - 7)).find("ends within"), std::string::npos);
-  EXPECT_NE(refused("mesh\n" + whole).find(":1: "), std::string::npos);
+  EXPECT_NE(refused("1 2 3\n" + whole).find(":1: "), std::string::npos);
+  EXPECT_NE(refused("no datasets\n").find("no universal file"), std::string::npos);
   EXPECT_NE(refused(changed(whole, "         9\n  0.0", "        11\n  0.0")).find("other nodes"),
             std::string::npos);
   const std::string systems = "    -1\n  2420\n         1\n    -1\n";
   EXPECT_EQ(refused(systems + whole), "");
   EXPECT_NE(refused(systems + changed(whole, "7         0", "7         4")).find("global"),
             std::string::npos);
+}
+
+TEST_F(MeasuredModesFile, LeavesOutWhatIsNoModeWithANote)
+{
+  const std::string whole = metric + nodes + shapes;
+  EXPECT_TRUE(read(whole).notes.empty());
+  const std::string function = "    -1\n    58\na function\n    -1\n";
+  const std::string others = function + "    -1\n  2414\n1\n    -1\nwords of people\n" + whole;
+  const MeasuredModes beside = read(others);
+  EXPECT_EQ(beside.f_Hz.size(), 2);
+  ASSERT_EQ(beside.notes.size(), 1U);
+  EXPECT_NE(beside.notes[0].find("1 dataset 2414, 1 dataset 58"), std::string::npos)
+      << beside.notes[0];
+  const MeasuredModes rest = read(changed(whole, "1         2         2", "1         5         2"));
+  EXPECT_EQ(rest.f_Hz.size(), 1);
+  EXPECT_NE(rest.notes.at(0).find("analysis type 5"), std::string::npos) << rest.notes[0];
+  EXPECT_NE(refused(metric + nodes + function).find("no mode shapes"), std::string::npos);
 }
 
 ModalBody held_beam()

@@ -50,7 +50,7 @@ TEST(AbaqusDeck, NamesItsGroupsBySetsAndSections)
                       "*Nset, nset=Both\nEdge, 4\n*Element, type=B31, elset=Rib\n7, 1, 2\n"
                       "*Elset, elset=Rest,\ninternal\n1\n*Surface, type=node, name=S\nEdge, 1.\n"
                       "*Boundary\n3, 1, 3\n*Step\n*Whatever\n*End Step\n"),
-              {"RIB"});
+              {.line_groups = {"RIB"}});
   EXPECT_EQ(find_group(mesh, "PLATE").nodes, (std::vector<int>{0, 1, 2, 3}));
   EXPECT_EQ(find_group(mesh, "PLATE").dimension, 2);
   EXPECT_EQ(find_group(mesh, "PLATE_nodes").nodes, (std::vector<int>{0, 2}));
@@ -91,8 +91,9 @@ TEST_F(AbaqusFile, ErrorsNameFileLineAndKeyword)
 
 TEST(AbaqusLines, OfThreeNodesAreOfOrderTwo)
 {
-  const Mesh mesh = mesh_of(
-      deck_of("*Node\n1, 0.\n2, 1.\n3, 2.\n*Element, type=B32, elset=Rib\n1, 1, 2, 3\n"), {"RIB"});
+  const Mesh mesh =
+      mesh_of(deck_of("*Node\n1, 0.\n2, 1.\n3, 2.\n*Element, type=B32, elset=Rib\n1, 1, 2, 3\n"),
+              {.line_groups = {"RIB"}});
   EXPECT_EQ(mesh.blocks.at(0).order, 2);
   EXPECT_EQ(mesh.blocks.at(0).nodes, (std::vector<int>{0, 1, 2}));
 }
@@ -130,13 +131,82 @@ TEST(AbaqusDeclarations, HoldTheReferenceNodeOfACoupling)
   ASSERT_EQ(rigid.couplings.size(), 1U);
   EXPECT_EQ(rigid.couplings[0].name, "node_9");
   EXPECT_EQ(rigid.couplings[0].group, "surface_S");
-  EXPECT_FALSE(rigid.couplings[0].averages);
+  EXPECT_EQ(rigid.couplings[0].kind, CouplingOfDeck::rigid);
+  EXPECT_EQ(rigid.couplings[0].at, (std::array<double, 3>{1.0, 0.5, 0.0}));
   ASSERT_EQ(rigid.supports.size(), 2U);
   EXPECT_EQ(rigid.supports[0].group, "node_9");
   EXPECT_EQ(rigid.supports[0].components.size(), 6U);
   EXPECT_EQ(rigid.supports[1].group, "boundary_3");
   EXPECT_EQ(rigid.supports[1].components, (std::vector<int>{0, 1}));
-  EXPECT_TRUE(declared_by(plate + coupling + "*Distributing\n", 1.0).couplings[0].averages);
+  EXPECT_EQ(declared_by(plate + coupling + "*Distributing\n", 1.0).couplings[0].kind,
+            CouplingOfDeck::averaging);
+}
+
+TEST(AbaqusKeywords, MayHaveBlanksAndGoOnBehindAComma)
+{
+  const std::vector<Keyword> keywords = abaqus_keywords(
+      "*NSET , NSET = Held ,\n1, 8\n* Nset, nset=A,\n generate , internal\n1, 3\n"
+      "*Shell\tSection, Elset =P,\nMaterial= \"my steel\"\n2.\n");
+  ASSERT_EQ(keywords.size(), 3U);
+  EXPECT_EQ(keywords[0].parameter("NSET"), "HELD");
+  EXPECT_EQ(keywords[0].rows.size(), 1U);
+  EXPECT_TRUE(keywords[1].has("GENERATE"));
+  EXPECT_EQ(keywords[1].rows.size(), 1U);
+  EXPECT_EQ(keywords[2].name, "SHELL SECTION");
+  EXPECT_EQ(keywords[2].parameter("MATERIAL"), "MY STEEL");
+}
+
+TEST(AbaqusDeck, HasSurfacesOfElementNumbersAndEdges)
+{
+  const Mesh mesh =
+      mesh_of(deck_of(plate + "*Surface, name=S\n1, SPOS\n*Surface, name=E\nPLATE, E2\n"), {});
+  EXPECT_EQ(find_group(mesh, "surface_S").nodes.size(), 4U);
+  EXPECT_EQ(find_group(mesh, "surface_E").nodes, (std::vector<int>{1, 2}));
+}
+
+TEST(AbaqusDeclarations, HaveTheSupportsOfTheFirstStep)
+{
+  const std::string steps =
+      "*Step, perturbation\n*Frequency\n5,\n*Nset, nset=Held\n1, 2\n*Boundary, op=MOD\n"
+      "Held, ENCASTRE\n*End Step\n*Step\n*Boundary\n3, 1\n*End Step\n";
+  const Declarations declared = declared_by(plate + steps, 1.0);
+  ASSERT_EQ(declared.supports.size(), 1U);
+  EXPECT_EQ(declared.supports[0].group, "HELD");
+  const Deck deck = deck_of(plate + steps);
+  ASSERT_EQ(deck.notes.size(), 2U);
+  expect_words(deck.notes[1], {"line 24", "later step"});
+}
+
+const std::string part = "*Part, name=P\n" + square +
+                         "*Nset, nset=Edge\n1, 4\n*Shell Section, elset=Plate, material=Steel\n2.\n"
+                         "*End Part\n";
+
+/// The second instance stands at x = 10, turned by 90 degrees about z through (10, 0, 0).
+TEST(AbaqusDeck, HasInstancesOfParts)
+{
+  const std::string assembly =
+      "*Assembly, name=A\n*Instance, name=P-1, part=P\n*End Instance\n"
+      "*Instance, name=P-2, part=P\n10., 0., 0.\n10., 0., 0., 10., 0., 1., 90.\n*End Instance\n"
+      "*Node, nset=Ref\n1, 7., 7., 7.\n*Nset, nset=Far, instance=P-2\n2, 3\n"
+      "*Nset, nset=Far, instance=P-1\nEdge\n*Surface, type=NODE, name=S\nFar\n"
+      "*Coupling, constraint name=C, ref node=Ref, surface=S\n*Kinematic\n*End Assembly\n" +
+      steel + "*Boundary\nP-1.Edge, 1\nP-2.3, 2\n";
+  const Deck deck = deck_of(part + assembly);
+  EXPECT_EQ(deck.nodes.size(), 9U);
+  EXPECT_EQ(deck.nodes.at(2), (std::array<double, 3>{2.0, 0.0, 0.0}));
+  EXPECT_NEAR(deck.nodes.at(12)[0], 10.0, 1e-14);
+  EXPECT_NEAR(deck.nodes.at(12)[1], 2.0, 1e-14);
+  EXPECT_EQ(deck.nodes.at(21)[2], 7.0);
+  expect_words(deck.notes.at(0), {"P-2", "from 10 on"});
+  const Declarations declared = declared_by(part + assembly, 1.0);
+  ASSERT_EQ(declared.shells.size(), 2U);
+  EXPECT_EQ(declared.shells[1].group, "P-2.PLATE");
+  EXPECT_EQ(declared.supports.at(0).group, "P-1.EDGE");
+  EXPECT_EQ(declared.supports.at(1).group, "boundary_13");
+  EXPECT_EQ(declared.couplings.at(0).name, "node_21");
+  const Mesh mesh = mesh_of(deck, {});
+  EXPECT_EQ(find_group(mesh, "surface_S").nodes.size(), 4U);
+  EXPECT_NEAR(area(mesh), 4.0, 1e-14);
 }
 
 class RefusedKeyword : public ::testing::TestWithParam<Refusal> {};
@@ -148,7 +218,17 @@ TEST_P(RefusedKeyword, IsNamedWithItsLine)
 
 const std::vector<Refusal> refusals{
     {plate + "*Spring, elset=a\n", {"line 15", "*SPRING", "not known"}},
-    {plate + "*Part, name=P\n", {"*PART", "noPartsInputFile"}},
+    {plate + "*Part, name=P\n", {"*PART", "END PART"}},
+    {plate + "*Assembly, name=A\n*Instance, name=I, part=P\n*End Instance\n",
+     {"line 16", "*INSTANCE", "no part \"P\""}},
+    {plate + "*Include, input=more.inp\n", {"line 15", "more.inp"}},
+    {square + "*Material, name=Steel\n*Elastic\n210000., 0.3\n"
+              "*Shell Section, elset=Plate, material=Steel\n2.\n",
+     {"*MATERIAL", "STEEL has no *DENSITY"}},
+    {plate + "*Boundary\n1, 1\n*Step\n*Boundary, op=NEW\n2, 1\n*End Step\n",
+     {"line 18", "OP = NEW"}},
+    {plate + "*Surface, name=S\n17, SPOS\n", {"line 16", "no element 17"}},
+    {plate + "*Surface, name=S\n1, S3\n", {"line 16", "SPOS or SNEG"}},
     {plate + "*Node, system=C\n5, 1.\n", {"*NODE", "SYSTEM"}},
     {plate + "*Node\n1, 1.\n", {"line 16", "node 1", "twice"}},
     {plate + "*Node\n5, a\n", {"line 16", "\"A\" is no number"}},
@@ -173,7 +253,7 @@ const std::vector<Refusal> refusals{
     {plate + "*Material, name=B\n*Elastic\n1., .3\n2., .3, 100.\n", {"*ELASTIC", "one data line"}},
     {plate + "*Material, name=B\n*Elastic\n1., .3\n*Plastic\n1., 0.\n", {"*PLASTIC", "not known"}},
     {plate + "*Nset, nset=Ref\n1\n*Surface, type=NODE, name=S\n2\n"
-             "*Coupling, constraint name=C, ref node=Ref, surface=S\n*Kinematic\n",
+             "*Coupling, constraint name=C, ref node=Ref, surface=S\n*Distributing\n",
      {"*COUPLING", "node 1 belongs to an element"}},
     {plate + "*Element, type=B31, elset=Rib\n7, 1, 2\n"
              "*Beam Section, elset=Rib, material=Steel, section=L\n4., 2., 1., 1.\n",

@@ -47,7 +47,7 @@ const std::string plate = square + steel + "PSHELL,7,9,2.,9,,9\n";
 
 TEST(NastranCards, HaveSmallLargeAndFreeFields)
 {
-  const std::vector<Card> cards = nastran_cards(
+  std::vector<Card> cards = nastran_cards(
       "SOL 103\nCEND\nBEGIN BULK\n$ a comment\n"
       "GRID    1       3       1.5+3   -2.5-1  7.D1            $ behind it\n"
       "GRID*   2               3               .15             2.              *A\n"
@@ -57,8 +57,9 @@ TEST(NastranCards, HaveSmallLargeAndFreeFields)
       "+S1     7       8\n"
       "GRID\t4\t\t1.\t2.\t3.\n"
       "ENDDATA\nnothing of this is read\n");
+  std::erase_if(cards, [](const Card& card) { return card.name() == "CASE"; });
   ASSERT_EQ(cards.size(), 5U);
-  EXPECT_EQ(cards[0].line(), 5);
+  EXPECT_EQ(cards[0].place(), "line 5");
   EXPECT_DOUBLE_EQ(cards[0].real(3, "x"), 1500.0);
   EXPECT_DOUBLE_EQ(cards[0].real(4, "y"), -0.25);
   EXPECT_DOUBLE_EQ(cards[0].real(5, "z"), 70.0);
@@ -100,7 +101,7 @@ TEST(NastranDeck, NamesItsGroupsByPropertiesSetsAndConstraints)
   const Mesh mesh = mesh_of(
       deck_of(square + "CTRIA3,2,8,1,2,3\nCBAR,3,5,1,2,0.,0.,1.\nSPC1,6,123,1,THRU,2\n"
                        "SPC,6,3,3,0.\nSET1,4,4\nRBE2,20,9,123456,2,3\nGRID,9,,0.,0.,0.,,12\n"),
-      {"pbar_5"});
+      {.line_groups = {"pbar_5"}});
   EXPECT_EQ(find_group(mesh, "pshell_7").nodes, (std::vector<int>{0, 1, 2, 3}));
   EXPECT_EQ(find_group(mesh, "pshell_8").dimension, 2);
   EXPECT_EQ(find_group(mesh, "pbar_5").dimension, 1);
@@ -109,6 +110,118 @@ TEST(NastranDeck, NamesItsGroupsByPropertiesSetsAndConstraints)
   EXPECT_EQ(find_group(mesh, "set_4").nodes, (std::vector<int>{3}));
   EXPECT_EQ(find_group(mesh, "rbe2_20").nodes, (std::vector<int>{1, 2}));
   EXPECT_EQ(mesh.blocks.size(), 3U);
+}
+
+/// Column 73 is free, and a sorted deck has continuations apart from their lines.
+TEST(NastranCards, AreContinuedByTheLineWithTheirMark)
+{
+  const std::vector<Card> cards = nastran_cards(
+      "SPC1    6       123     1       2       3       4       5       6       XAB1\n"
+      "SPC1    7       123     1       2       3       4       5       6       +CD1\n"
+      "SPC1,8,123,1,2,3,4,5,6,EF1\n"
+      "+CD1    8\n"
+      "+AB1    7\n"
+      "+EF1,9\n");
+  ASSERT_EQ(cards.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(cards[i].ranges(3, "node").back().from, 7 + std::int64_t(i)) << i;
+}
+
+TEST(NastranCards, AreThoseOfIncludedFiles)
+{
+  const auto read = [](const std::string& file) -> std::string {
+    if (file == "a/b.bdf") return "GRID,2,,1.\nINCLUDE 'c.bdf'\n";
+    if (file == "a/c.bdf") return "GRID,3,,x\n";
+    if (file == "loop.bdf") return "INCLUDE loop.bdf\n";
+    throw Error("there is no " + file);
+  };
+  const std::vector<Card> cards = nastran_cards("GRID,1\nInclude 'a/b.bdf' $ more\nGRID,4\n", read);
+  ASSERT_EQ(cards.size(), 4U);
+  EXPECT_EQ(cards[2].place(), "line 1 of a/c.bdf");
+  EXPECT_EQ(cards[3].place(), "line 3");
+  const auto error = [&](const std::string& text) -> std::string {
+    try {
+      nastran_cards(text, read);
+    } catch (const Error& refused) {
+      return refused.what();
+    }
+    return "no error";
+  };
+  expect_words(error("GRID,1\nINCLUDE 'z.bdf'\n"), {"line 2", "no z.bdf"});
+  expect_words(error("INCLUDE \"loop.bdf\"\n"), {"line 1 of loop.bdf", "includes this file"});
+}
+
+TEST(NastranDeck, HasTheDefaultsOfGrdset)
+{
+  const Deck deck = deck_of(
+      "CORD2R,3,,5.,0.,0.,5.,0.,1.\n,6.,0.,0.\nGRDSET,,3,,,,,126\nGRID,1,,1.,0.,0.\n"
+      "GRID,2,0,1.,0.,0.,,0\n");
+  EXPECT_DOUBLE_EQ(deck.nodes.at(1)[0], 6.0);
+  EXPECT_DOUBLE_EQ(deck.nodes.at(2)[0], 1.0);
+  ASSERT_EQ(deck.groups.size(), 1U);
+  EXPECT_EQ(deck.groups[0].name, "ps_126");
+  EXPECT_EQ(deck.groups[0].nodes, (std::vector<std::int64_t>{1}));
+}
+
+TEST(NastranDeck, PlacesNodesBySphericalSystems)
+{
+  const Deck deck = deck_of(
+      "CORD2S,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,1,5,2.,90.,90.\n"
+      "GRID,2,5,2.,60.,0.\n");
+  const auto &across = deck.nodes.at(1), &up = deck.nodes.at(2);
+  EXPECT_NEAR(across[0], 0.0, 1e-15);
+  EXPECT_NEAR(across[1], 2.0, 1e-15);
+  EXPECT_NEAR(across[2], 0.0, 1e-15);
+  EXPECT_NEAR(up[0], std::sqrt(3.0), 1e-15);
+  EXPECT_NEAR(up[2], 1.0, 1e-15) << "theta is measured from the z axis";
+}
+
+/// Two elements with the edge 2-3 in common; a card may leave out any of its middle nodes.
+TEST(NastranDeck, HasMissingMiddleNodesOnStraightEdges)
+{
+  const Mesh mesh =
+      mesh_of(deck_of(four_nodes + "GRID,5,,4.,0.,0.\nGRID,6,,4.,1.,0.\nGRID,7,,2.,.5,.1\n"
+                                   "CQUAD8,1,7,1,2,3,4,,\n,,\nCQUAD8,2,7,2,5,6,3,,\n,,7\n"
+                                   "CTRIA6,3,7,1,2,5\nSET1,4,1,2\nSET1,5,1,4\n"),
+              {});
+  const ElementBlock& quads = mesh.blocks.at(0);
+  const auto at = [&](int element, int place) {
+    return mesh.positions[std::size_t(quads.element_nodes(element)[std::size_t(place)])];
+  };
+  EXPECT_EQ(at(0, 1), (std::array<double, 3>{1.0, 0.0, 0.0}));
+  EXPECT_EQ(at(1, 3), (std::array<double, 3>{2.0, 0.5, 0.1})) << "that of the card";
+  EXPECT_EQ(quads.element_nodes(0)[5], quads.element_nodes(1)[3]) << "that of the neighbour";
+  EXPECT_EQ(find_group(mesh, "set_4").nodes.back(), quads.element_nodes(0)[1]);
+  EXPECT_EQ(find_group(mesh, "set_5").nodes.size(), 3U) << "with the middle of 1 and 4";
+  EXPECT_EQ(mesh.blocks.at(1).element_nodes(0)[1], quads.element_nodes(0)[1]) << "a new one, once";
+  std::string notes;
+  for (const std::string& note : mesh.notes) notes += note + "\n";
+  expect_words(notes, {"middle nodes", "numbered from 8"});
+}
+
+TEST(NastranDeck, RefusesElementsOfTheSameNodesUnlessAsked)
+{
+  const Deck deck = deck_of(square + "CQUAD4,2,8,2,3,4,1\nCQUAD4,3,7,1,2,3,4\n");
+  const auto n_elements = [&](Doubled doubled) {
+    return mesh_of(deck, {.doubled_elements = doubled}).blocks.at(0).n_elements();
+  };
+  EXPECT_EQ(n_elements(Doubled::keep), 3);
+  EXPECT_EQ(n_elements(Doubled::merge), 1);
+  try {
+    n_elements(Doubled::refuse);
+    FAIL() << "doubled";
+  } catch (const Error& error) {
+    expect_words(error.what(), {"1 (line 5)", "2 (line 6)", "2 pairs", "doubled_elements"});
+  }
+}
+
+/// Each kind of element has numbers of its own.
+TEST(NastranDeck, LetsARigidElementHaveTheNumberOfAShell)
+{
+  const Deck deck = deck_of(square +
+                            "GRID,9,,1.,.5,0.\nRBE2,1,9,123456,1,2\nCONM2,1,9,,1.\n"
+                            "CELAS2,1,5.,1,3\n");
+  EXPECT_EQ(deck.couplings.size(), 1U);
 }
 
 TEST(NastranDeck, HasItsFlatQuadrilateralsSplitAsThoseOfOtherFiles)
@@ -188,9 +301,102 @@ TEST(NastranDeclarations, HoldTheReferenceNodeOfAnRbe2ByItsCoupling)
   ASSERT_EQ(declared.couplings.size(), 1U);
   EXPECT_EQ(declared.couplings[0].name, "node_9");
   EXPECT_EQ(declared.couplings[0].group, "rbe2_20");
+  const std::array<double, 3> place = declared.couplings[0].at.value();
+  EXPECT_NEAR(place[0], 1e-3, 1e-18) << "where the GRID stands, m";
+  EXPECT_NEAR(place[1], 0.5e-3, 1e-18);
   ASSERT_EQ(declared.supports.size(), 2U);
   EXPECT_EQ(declared.supports[0].group, "node_9");
   EXPECT_EQ(declared.supports[1].group, "spc_6_123456");
+}
+
+/// What a rigid element hangs at: a node of the mesh, the reference of another, one that follows.
+TEST(NastranDeclarations, LinkRigidElementsToNodesThatOthersHave)
+{
+  const Declarations declared = declared_by(
+      plate +
+          "GRID,9,,1.,.5,0.\nGRID,10,,5.,.5,0.\nGRID,11,,6.,.5,0.\nGRID,12,,0.,1.,0.\n"
+          "RBE2,20,9,123456,1,10\nRBE2,21,9,123456,2\nRBAR,22,10,11,123456\nRBE2,23,3,123456,4\n"
+          "CONM2,30,11,,2.-3\n",
+      1e-3);
+  ASSERT_EQ(declared.couplings.size(), 4U);
+  EXPECT_EQ(declared.couplings[0].kind, CouplingOfDeck::rigid);
+  const auto is_link = [&](std::size_t i, const std::string& group, const std::string& to) {
+    EXPECT_EQ(declared.couplings[i].kind, CouplingOfDeck::rigid) << i;
+    EXPECT_TRUE(declared.couplings[i].name.empty()) << i;
+    EXPECT_EQ(declared.couplings[i].group, group);
+    EXPECT_EQ(declared.couplings[i].to, to);
+  };
+  is_link(1, "rbe2_21", "node_9");
+  is_link(2, "rbar_22", "leader_10");
+  is_link(3, "rbe2_23", "leader_3");
+  EXPECT_EQ(declared.masses.at(0).at, "conm2_30") << "11 follows, and stays in the mesh";
+}
+
+TEST(NastranDeclarations, HaveSixEquationsOfTwoTermsAsALink)
+{
+  std::string deck =
+      "MPC = 4\nCEND\nBEGIN BULK\n" + plate + "GRID,12,,0.,1.,0.\nMPC,5,1,1,1.,2,1,1.\n";
+  for (int c = 1; c <= 6; ++c) deck += fmt::format("MPC,4,12,{0},2.,4,{0},-2.\n", c);
+  const Declarations declared = declared_by(deck, 1e-3);
+  ASSERT_EQ(declared.couplings.size(), 1U);
+  EXPECT_EQ(declared.couplings[0].group, "mpc_4_12");
+  EXPECT_EQ(declared.couplings[0].to, "leader_4");
+  EXPECT_NE(declared.notes.at(0).find("MPC of the set 5 are left out"), std::string::npos)
+      << declared.notes[0];
+}
+
+TEST(NastranDeclarations, HoldTheSetsThatCaseControlChooses)
+{
+  const std::string sets =
+      "BEGIN BULK\n" + plate + "SPC1,1,123,1\nSPC1,2,456,2\nSPC1,3,1,3\nSPCADD,77,1,2\n";
+  const auto groups = [](const Declarations& declared) {
+    std::vector<std::string> names;
+    for (const DeclaredSupport& support : declared.supports) names.push_back(support.group);
+    return names;
+  };
+  const Declarations one = declared_by("CEND\nspc = 3 $ the third\n" + sets, 1e-3);
+  EXPECT_EQ(groups(one), (std::vector<std::string>{"spc_3_1"}));
+  EXPECT_NE(one.notes.at(0).find("SPC of the set 1, 2 are left out"), std::string::npos)
+      << one.notes[0];
+  const Declarations joined = declared_by("SPC=77\nCEND\n" + sets, 1e-3);
+  EXPECT_EQ(groups(joined), (std::vector<std::string>{"spc_1_123", "spc_2_456"}));
+  const Declarations unchosen = declared_by("CEND\nBEGIN BULK\n" + plate + "SPC1,6,123,1\n", 1e-3);
+  EXPECT_EQ(unchosen.supports.size(), 1U);
+  EXPECT_NE(unchosen.notes.at(0).find("chooses no SPC"), std::string::npos);
+}
+
+TEST(NastranDeclarations, PassOverHeldNodesOfNoElement)
+{
+  const Declarations declared =
+      declared_by(plate + "GRID,9,,1.,1.,0.\nSPC1,6,3,1,9\nGRID,10,,1.,1.,0.,,123\n", 1e-3);
+  ASSERT_EQ(declared.supports.size(), 1U);
+  EXPECT_EQ(declared.supports[0].group, "spc_6_3");
+  EXPECT_NE(declared.notes.at(0).find("node 9, are passed over"), std::string::npos)
+      << declared.notes[0];
+}
+
+TEST(NastranDeclarations, TakeAShearModulusOfTwoDigits)
+{
+  const Declarations declared = declared_by(square +
+                                                "MAT1,9,2.07E5,80.+3,.29,7.82-9\n"
+                                                "PSHELL,7,9,2.,9,,9\n",
+                                            1e-3);
+  EXPECT_NEAR(declared.materials.at(0).poisson, 0.29, 1e-15);
+  EXPECT_NE(declared.notes.at(0).find("two digits"), std::string::npos);
+}
+
+TEST(NastranDeclarations, HaveBarsRigidInShearWhereTheirFactorsAreZero)
+{
+  const std::string bar = plate + "CBAR,30,40,1,2,0.,3.,0.\nPBAR,40,9,100.,833.,900.,1400.\n";
+  EXPECT_FALSE(declared_by(bar + ",\n,0.,0.\n", 1e-3).beams.at(0).shear_factor_y);
+  const DeclaredBeam sheared = declared_by(bar + ",\n,.8,.9\n", 1e-3).beams.at(0);
+  EXPECT_EQ(sheared.shear_factor_z, 0.8);
+  EXPECT_EQ(sheared.shear_factor_y, 0.9);
+  EXPECT_FALSE(declared_by(plate + "CBEAM,31,41,1,2,0.,0.,1.\nPBEAM,41,9,100.,833.,900.,,1400.\n"
+                                   ",\n,0.,0.\n",
+                           1e-3)
+                   .beams.at(0)
+                   .shear_factor_y);
 }
 
 TEST(NastranDeclarations, HaveMassesAndSprings)
@@ -263,7 +469,7 @@ const std::vector<Refusal> refusals{
     {plate + "CBAR,3,5,1,2,0.,0.,1.\nPBARL,5,9,,TUBE\n,1.,1.\n", {"PBARL 5", "inner radius"}},
     {plate + "CBAR,3,5,1,2,0.,0.,1.\nPBARL,5,9,,BAR\n,1.,1.,2.\n", {"PBARL 5", "NSM"}},
     {plate + "CTETRA,5,7,1,2,3,4\n", {"CTETRA 5", "solid"}},
-    {plate + "INCLUDE 'more.bdf'\n", {"line 8", "INCLUDE"}},
+    {plate + "INCLUDE 'more.bdf'\n", {"line 8", "more.bdf"}},
     {plate + "GRID,1,,0.,0.,0.\n", {"GRID 1", "twice"}},
     {plate + "GRID,5,3,0.,0.,0.\n", {"GRID 5", "no coordinate system 3"}},
     {plate + "GRID,5,,a.,0.,0.\n", {"GRID 5", "\"A.\" in field 4"}},
@@ -274,14 +480,27 @@ const std::vector<Refusal> refusals{
     {plate + "CQUAD4,1,7,1,2,3,4\n", {"CQUAD4 1", "another element"}},
     {plate + "CQUAD4,2,7,1,2,3,4,,.5\n", {"CQUAD4 2", "offset"}},
     {plate + "CQUAD4,2,7,1,2,3,4\n,,,2.\n", {"CQUAD4 2", "thickness of its own"}},
-    {plate + "CQUAD8,2,7,1,2,3,4\n", {"CQUAD8 2", "field 8"}},
+    {plate + "CQUAD8,2,7,1,2,3\n", {"CQUAD8 2", "field 7"}},
+    {plate + "CQUAD8,2,7,1,2,3,4\n", {"line 8", "element 2", "between", "element 1 of order 1"}},
     {plate + "CBAR,2,5,1,2,0.,0.,1.\n,456\n", {"CBAR 2", "released"}},
     {plate + "SPC1,6,128,1\n", {"SPC1 6", "no components"}},
     {plate + "SPC,6,1,3,.5\n", {"SPC 6", "prescribes"}},
     {plate + "SPC1,6,3,1\nSPC1,7,3,2\n", {"SPC1 7", "second set"}},
     {plate + "SET1,6,9,THRU,5\n", {"SET1 6", "no range"}},
     {plate + "RBE2,6,9,123,1,2\n", {"RBE2 6", "123456"}},
-    {plate + "RBE2,6,4,123456,1,2\n", {"RBE2 6", "node 4"}},
+    {plate + "RBE2,6,9,123456,1,2\n", {"RBE2 6", "no node 9"}},
+    {plate + "RBE3,6,,4,123456,1.,123,1,2\n", {"RBE3 6", "node 4"}},
+    {plate + "RBAR,6,1,2,123,456\n", {"RBAR 6", "not wholly rigid"}},
+    {plate + "MPC,6,1,1,1.,2,1,-1.\n", {"MPC 6", "1 of 6 components"}},
+    {plate + "MPC,6,1,1,1.,2,1,-1.\n,,3,1,1.\n", {"MPC 6", "two terms"}},
+    {plate + "MPC,6,1,1,1.,2,1,-2.\n", {"MPC 6", "coefficients"}},
+    {plate + "MPC,6,1,1,1.,2,2,-1.\n", {"MPC 6", "two components"}},
+    {"SPC = 5\nCEND\nBEGIN BULK\n" + plate + "SPC1,6,3,1\n", {"line 1", "CASE SPC", "no SPC 5"}},
+    {"CEND\nSPC = 5\nSPC = 6\nBEGIN BULK\n" + plate, {"line 3", "line 2 chooses SPC = 5"}},
+    {square + "MAT1,9,2.1E5,,.3\nPSHELL,7,9,2.,9,,9\n", {"MAT1 9", "no density", "RHO"}},
+    {plate + "CBAR,3,5,1,2,0.,0.,1.\nPBAR,5,9,1.,1.,2.,1.\n\n,\n,1.,0.\n",
+     {"PBAR 5", "one of its two planes"}},
+    {plate + "GRDSET,,,,,,,1\nGRDSET,,,,,,,2\n", {"GRDSET", "one already"}},
     {plate + "RBE3,6,,9,123456,1.,123,1,2\n,2.,123,3\n", {"RBE3 6", "several weights"}},
     {plate + "PARAM,WTMASS,.00259\n", {"PARAM WTMASS", "densities"}},
     {square + steel + "PSHELL,7,9,2.\n", {"PSHELL 7", "MID2"}},
@@ -296,7 +515,10 @@ const std::vector<Refusal> refusals{
     {"SPC1,6,3,1,2,3,4,5,6,7\n", {"line 1", "more than 8 fields"}},
     {"+A,1\n", {"line 1", "continues no entry"}},
     {"GRID    1               0.      0.      0.                              +A\n+B      2\n",
-     {"line 2", "continuation B", "asks for A"}}};
+     {"line 2", "continuation B", "asks for A"}},
+    {"SPC1    6       3       1                                               +A\n+A      2\n"
+     "GRID    1\n+A      3\n",
+     {"line 4", "continues line 1, as line 2 does"}}};
 
 INSTANTIATE_TEST_SUITE_P(Nastran, RefusedCard, ::testing::ValuesIn(refusals));
 

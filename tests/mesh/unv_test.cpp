@@ -41,7 +41,7 @@ std::string groups(const std::string& members)
 
 Mesh mesh_of_text(const std::string& text, const MeshOptions& options = {})
 {
-  return mesh_of(deck_of(unv_mesh(text, 1.0), options), options.line_groups);
+  return mesh_of(unv_mesh(text, 1.0), options);
 }
 
 std::string error_in(const std::string& text)
@@ -144,7 +144,7 @@ TEST(Unv, LeavesOutWhatIsNoMesh)
 TEST(Unv, RefusesWhatIsWrongOrNotKnown)
 {
   const std::vector<Refusal> refusals{
-      {"solid\n", {"\"solid\"", "where a dataset begins"}},
+      {"1 2 3\n", {"\"1 2 3\"", "where a dataset begins"}},
       {six_nodes + dataset("2412", "1 111 1 1 7 4\n1 2 3 4\n"), {"solid element", "mid-surface"}},
       {six_nodes + dataset("2412", "1 136 1 1 7 2\n1 2\n"), {"descriptor 136"}},
       {six_nodes + dataset("2412", "1 94 1 1 7 3\n1 2 3\n"), {"3 nodes", "has 4"}},
@@ -162,13 +162,54 @@ TEST(Unv, RefusesWhatIsWrongOrNotKnown)
       {plate + dataset("164", "1 x 2\n0.0 1.0 1.0\n"), {"factor of lengths"}}};
   for (const Refusal& refusal : refusals) expect_refused(refusal, error_in(refusal.text));
   expect_words(error_in(plate + "    -1\n  2467\n"), {"cut off", "2467"});
-  expect_words(error_in(plate + groups("1 0 0 0 0 0 0 2\nA\n8 7 0 0 8 9 0 0\n")),
-               {"\"A\"", "1 lines and 1 surfaces"});
-  expect_words(
-      error_in(plate + groups("1 0 0 0 0 0 0 1\nA\n8 7 0 0\n2 0 0 0 0 0 0 1\nA\n8 9 0 0\n")),
-      {"\"A\" is there twice"});
+  expect_words(error_in(plate + groups("1 0 0 0 0 0 0 2\nA\n8 7 0 0 8 9 0 0\n"
+                                       "2 0 0 0 0 0 0 1\nA_lines\n8 9 0 0\n")),
+               {"\"A_lines\" is there twice"});
   expect_words(error_in(six_nodes + dataset("2412", "1 94 1 1 7 4\n1 2 3 44\n")),
                {"element 1", "node 44"});
+}
+
+TEST(Unv, PassesOverWordsBetweenDatasets)
+{
+  const std::string words = "Workpiece\nwritten on 2026-11-29, by 2 people\n";
+  EXPECT_NEAR(area(mesh_of_text(words + plate + words)), 3.0, 1e-15);
+}
+
+TEST(Unv, NamesLinesOfAGroupOfSurfacesByTheirKind)
+{
+  for (const std::string& both :
+       {groups("1 0 0 0 0 0 0 2\nA\n8 7 0 0 8 9 0 0\n"),
+        groups("1 0 0 0 0 0 0 1\nA\n8 7 0 0\n2 0 0 0 0 0 0 1\nA\n8 9 0 0\n")}) {
+    const Mesh mesh =
+        mesh_of_text(plate + both, {.line_groups = {"A_lines"}, .shell_groups = {"A"}});
+    EXPECT_EQ(find_group(mesh, "A").nodes, (std::vector<int>{0, 1, 2, 3}));
+    EXPECT_EQ(find_group(mesh, "A_lines").nodes, (std::vector<int>{0, 3}));
+    EXPECT_EQ(mesh.blocks.size(), 2U);
+  }
+  const Mesh united =
+      mesh_of_text(plate + groups("1 0 0 0 0 0 0 1\nA\n8 7 0 0\n2 0 0 0 0 0 0 1\nA\n8 8 0 0\n"));
+  EXPECT_EQ(find_group(united, "A").nodes.size(), 6U);
+}
+
+TEST(Unv, HasAnElementOfTwoNumbersOnce)
+{
+  const std::string twice = plate + dataset("2412", "70 94 1 1 7 4\n2 3 4 1\n") +
+                            groups(
+                                "1 0 0 0 0 0 0 2\nA\n8 7 0 0 8 8 0 0\n"
+                                "2 0 0 0 0 0 0 1\nB\n8 70 0 0\n");
+  const Mesh mesh = mesh_of_text(twice, {.shell_groups = {"B"}});
+  EXPECT_NEAR(area(mesh), 3.0, 1e-15);
+  EXPECT_EQ(mesh.groups[std::size_t(mesh.blocks.at(0).group.at(0))].name, "B") << "has a section";
+  EXPECT_EQ(mesh.groups[std::size_t(mesh.blocks.at(0).group.at(1))].name, "A");
+  std::string notes;
+  for (const std::string& note : mesh.notes) notes += note + "\n";
+  expect_words(notes, {"7 and 70"});
+  try {
+    mesh_of_text(twice, {.shell_groups = {"A", "B"}});
+    FAIL() << "two sections";
+  } catch (const Error& error) {
+    expect_words(error.what(), {"element 7", "\"A\"", "\"B\"", "section"});
+  }
 }
 
 class UnvFile : public MeshFile {};

@@ -21,7 +21,7 @@ using testing::Refusal;
 
 Mesh mesh_of_text(const std::string& text, const MeshOptions& options = {})
 {
-  return mesh_of(deck_of(vtu_mesh(text), options), options.line_groups);
+  return mesh_of(vtu_mesh(text), options);
 }
 
 std::string error_in(const std::string& text)
@@ -92,6 +92,24 @@ TEST(Vtu, HasGroupsByTheValuesOfWholeNumbers)
   EXPECT_EQ(find_group(mesh, "material_3_nodes").nodes, (std::vector<int>{1}));
   EXPECT_EQ(find_group(mesh, "material_4").nodes, (std::vector<int>{1, 2, 4, 5}));
   EXPECT_EQ(find_group(mesh, "side_-1").nodes, (std::vector<int>{0, 3}));
+}
+
+TEST(Vtu, NamesLinesOfAGroupOfSurfacesByTheirKind)
+{
+  const Mesh mesh = mesh_of_text(text_of({.of_cells = ascii("UInt8", "group a", "1 0 1 0")}));
+  EXPECT_EQ(find_group(mesh, "a").nodes, (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(find_group(mesh, "a_lines").nodes, (std::vector<int>{0, 3}));
+}
+
+TEST(Vtu, HasACellThatStandsThereTwiceOnce)
+{
+  const std::string twice = text_of(
+      {.connectivity = ascii("Int64", "connectivity", "0 1 2 3 1 2 3 0 0 3 1"),
+       .of_cells = ascii("UInt8", "group a", "1 0 0 0") + ascii("UInt8", "group b", "0 1 0 0")});
+  const Mesh mesh = mesh_of_text(twice, {.shell_groups = {"b"}});
+  EXPECT_NEAR(area(mesh), 2.0, 1e-15);
+  EXPECT_EQ(mesh.groups[std::size_t(mesh.blocks.at(0).group.at(0))].name, "b") << "has a section";
+  EXPECT_EQ(find_group(mesh, "a").nodes.size(), 4U);
 }
 
 TEST(Vtu, WithoutGroupsIsOneOfAllSurfaces)
@@ -250,8 +268,7 @@ TEST(Vtu, RefusesWhatIsWrongOrNotKnown)
        {"cell 0", "no point 9"}},
       {text_of({.offsets = ascii("Int64", "offsets", "4 2 10 11")}), {"cell 1 ends at 2"}},
       {text_of({.offsets = ascii("Int64", "offsets", "4 8 10 99")}), {"cell 3 ends at 99"}},
-      {text_of({.connectivity = ""}), {"\"connectivity\" is missing"}},
-      {text_of({.of_cells = ascii("UInt8", "group a", "1 0 1 0")}), {"\"a\"", "lines"}}};
+      {text_of({.connectivity = ""}), {"\"connectivity\" is missing"}}};
   for (const Refusal& refusal : of_cells) expect_words(error_in(refusal.text), refusal.words);
 }
 

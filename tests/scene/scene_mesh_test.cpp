@@ -219,9 +219,13 @@ TEST(SceneMesh, HoldsWhatAFileNeeds)
 
 TEST(SceneMeshError, NamesWhatAFileDoesNotTake)
 {
-  EXPECT_EQ(mesh_error("file = \"a.iges\"\n"),
-            "scene.toml:2: mesh.file = \"a.iges\": must be a .msh, .geo, .step, .unv, .med or "
-            ".vtu file, or a deck of Nastran (.bdf, .nas, .dat) or Abaqus (.inp)");
+  EXPECT_EQ(
+      mesh_error("file = \"a.iges\"\n"),
+      "scene.toml:2: mesh.file = \"a.iges\": must be a mesh file: .msh, .geo, .step, .stp, "
+      ".unv, .med, .mmed, .vtu, .bdf, .nas, .dat or .inp (a deck of Nastran or, the last one, "
+      "of Abaqus)");
+  EXPECT_NE(mesh_error("file = \"a.geo\"\ndoubled_elements = \"keep\"\n").find("is for decks"),
+            std::string::npos);
   EXPECT_EQ(mesh_error("file = \"a.msh\"\nelement_order = 2\n"),
             "scene.toml:3: mesh.element_order = 2: a .msh file has its own order; take this key "
             "out");
