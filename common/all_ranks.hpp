@@ -31,6 +31,14 @@ inline void agree_on(const std::optional<std::string>& complaint, MPI_Comm comm)
   throw Error(text);
 }
 
+/// Its words; of memory that ran out, whose own are the name of a class, ours.
+inline std::string complaint_of(const std::exception& error)
+{
+  if (dynamic_cast<const std::bad_alloc*>(&error) == nullptr) return error.what();
+  return "not enough memory on a rank; use more machines, ask for less, or raise the limit of this "
+         "shell (ulimit -v)";
+}
+
 /// Runs work() on each rank. It must not communicate. If it throws on one rank, all ranks throw, so
 /// that none waits for the others.
 /// @return the result of work() on this rank
@@ -43,10 +51,8 @@ auto on_all_ranks(MPI_Comm comm, const Work& work)
   std::optional<std::invoke_result_t<Work>> result;
   try {
     result.emplace(work());
-  } catch (const std::bad_alloc&) {
-    complaint = "not enough memory on a rank; use more ranks on more machines";
   } catch (const std::exception& error) {
-    complaint = error.what();
+    complaint = complaint_of(error);
   }
   agree_on(complaint, comm);
   return std::move(*result);
@@ -65,7 +71,7 @@ void on_first_rank(MPI_Comm comm, const Work& work)
     try {
       work();
     } catch (const std::exception& error) {
-      complaint = error.what();
+      complaint = complaint_of(error);
     }
   }
   agree_on(complaint, comm);

@@ -1,7 +1,9 @@
 #include "linear/kernels/growing_memory.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -30,7 +32,33 @@ int open_without_name(const std::string& folder)
   return named;
 }
 
+/// By `ulimit -v`.
+bool addresses_are_limited()
+{
+  rlimit limit{};
+  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
 }  // namespace
+
+std::string told(Lack lack, const std::string& what, const std::string& less,
+                 const std::string& folder)
+{
+  if (lack == Lack::disk) {
+    return fmt::format(
+        "the folder {} for scratch files has no room for {}; give another one by "
+        "-cms_scratch, or {}",
+        folder, what, less);
+  }
+  if (lack == Lack::addresses) {
+    return fmt::format(
+        "no memory for {}: the limit of this shell (ulimit -v) is reached; raise it, "
+        "{}, or use more machines",
+        what, less);
+  }
+  return fmt::format("no memory for {}; {}, use more machines{}", what, less,
+                     folder.empty() ? ", or -cms_scratch" : "");
+}
 
 /// Takes the room now: where a disk is full, a page without room would end the process.
 bool GrowingMemory::has_room_on_disk(std::size_t n_bytes)
@@ -51,18 +79,18 @@ void* GrowingMemory::larger(std::size_t n_bytes) const
   return memory == MAP_FAILED ? nullptr : memory;
 }
 
-bool GrowingMemory::grow(std::size_t n)
+Lack GrowingMemory::grow(std::size_t n)
 {
   const std::size_t n_bytes = std::max<std::size_t>(n, 1) * sizeof(double);
-  if (n_bytes <= n_bytes_) return true;
-  if (!folder_.empty() && !has_room_on_disk(n_bytes)) return false;
+  if (n_bytes <= n_bytes_) return Lack::none;
+  if (!folder_.empty() && !has_room_on_disk(n_bytes)) return Lack::disk;
   void* memory = larger(n_bytes);
-  if (memory == nullptr) return false;
+  if (memory == nullptr) return addresses_are_limited() ? Lack::addresses : Lack::memory;
   values_ = static_cast<double*>(memory);
   const bool is_mapped = !folder_.empty() || maps_memory;
   if (!is_mapped) std::fill(values_ + n_bytes_ / sizeof(double), values_ + n, 0.0);
   n_bytes_ = n_bytes;
-  return true;
+  return Lack::none;
 }
 
 void GrowingMemory::take_small_pages() const

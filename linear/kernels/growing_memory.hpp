@@ -6,6 +6,15 @@
 
 namespace chladni::linear {
 
+/// What an array lacks to grow, the worse the greater.
+enum class Lack { none, memory, addresses, disk };
+
+/// A sentence about it and what to do: "no memory for {what}; ...".
+/// @param less    what to ask for, "ask for fewer modes"
+/// @param folder  of scratch files
+std::string told(Lack lack, const std::string& what, const std::string& less,
+                 const std::string& folder);
+
 /// An array of doubles that grows without a copy and takes memory only where it is touched,
 /// whatever the settings of malloc are. SuperLU_DIST, part of many builds of PETSc, forbids malloc
 /// to map large blocks; a block that grows is then copied and exists twice.
@@ -26,8 +35,9 @@ class GrowingMemory {
   GrowingMemory& operator=(GrowingMemory&&) = delete;
 
   /// Makes room for n numbers; existing ones are kept, others are zero.
-  /// @return false if there is not enough memory, or no room for the file
-  [[nodiscard]] bool grow(std::size_t n);
+  /// @return what lacks, if there is not enough memory, no room for the file, or no addresses left
+  ///         (`ulimit -v`)
+  [[nodiscard]] Lack grow(std::size_t n);
   double* get() const { return values_; }
   /// Memory is taken in the smallest pages, so that what is never touched between others is not
   /// taken with them.

@@ -1,6 +1,7 @@
 #include "linear/kernels/scratch.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -18,20 +19,12 @@ void keep_with(Mat A, std::unique_ptr<GrowingMemory> memory)
 std::unique_ptr<GrowingMemory> room_for(double n_bytes, const std::string& folder, MPI_Comm comm)
 {
   auto memory = std::make_unique<GrowingMemory>(folder);
-  int refused = memory->grow(static_cast<std::size_t>(n_bytes / sizeof(double)) + 1) ? 0 : 1;
-  MPI_Allreduce(MPI_IN_PLACE, &refused, 1, MPI_INT, MPI_MAX, comm);
+  int lack = int(memory->grow(static_cast<std::size_t>(n_bytes / sizeof(double)) + 1));
+  MPI_Allreduce(MPI_IN_PLACE, &lack, 1, MPI_INT, MPI_MAX, comm);
   MPI_Allreduce(MPI_IN_PLACE, &n_bytes, 1, MPI_DOUBLE, MPI_SUM, comm);
-  if (refused == 0) return memory;
-  if (folder.empty()) {
-    throw Error(fmt::format(
-        "no memory for {:.0f} MiB; ask for fewer modes or masters, use more machines, or "
-        "-cms_scratch",
-        n_bytes / bytes_in_MiB));
-  }
-  throw Error(
-      fmt::format("the folder {} for scratch files has no room for {:.0f} MiB; give another one by "
-                  "-cms_scratch",
-                  folder, n_bytes / bytes_in_MiB));
+  if (Lack(lack) == Lack::none) return memory;
+  throw Error(told(Lack(lack), fmt::format("{:.0f} MiB", std::ceil(n_bytes / bytes_in_MiB)),
+                   "ask for fewer modes or masters", folder));
 }
 
 petsc::Matrix large_dense(Mat A, PetscInt n_columns, const std::string& folder)

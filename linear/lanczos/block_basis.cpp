@@ -43,14 +43,13 @@ void BlockBasis::reserve(PetscInt capacity)
         "ask for fewer modes, use more machines, -cms_scratch or -cms_lanczos_subspace",
         petsc::communicator(M_));
   }
-  int refused = values_.grow(std::size_t(n_local_) * capacity) ? 0 : 1;
-  MPI_Allreduce(MPI_IN_PLACE, &refused, 1, MPI_INT, MPI_MAX, petsc::communicator(M_));
-  if (refused == 1) {
-    throw Error(
-        fmt::format("block Lanczos: no {} for {} vectors of {} DOFs; ask for fewer modes, use more "
-                    "machines, {} or -cms_lanczos_subspace",
-                    scratch_.empty() ? "memory" : "room in " + scratch_, capacity, n_global_,
-                    scratch_.empty() ? "-cms_scratch" : "another folder"));
+  int lack = int(values_.grow(std::size_t(n_local_) * capacity));
+  MPI_Allreduce(MPI_IN_PLACE, &lack, 1, MPI_INT, MPI_MAX, petsc::communicator(M_));
+  if (Lack(lack) != Lack::none) {
+    const std::string what = fmt::format("{} vectors of {} DOFs", capacity, n_global_);
+    throw Error("block Lanczos: " + told(Lack(lack), what,
+                                         "ask for fewer modes or a smaller -cms_lanczos_subspace",
+                                         scratch_));
   }
   capacity_ = capacity;
 }

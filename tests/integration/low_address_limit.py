@@ -1,6 +1,6 @@
 """Under a low `ulimit -v`, `chladni` works or ends in one sentence; OpenBLAS and MPI looped or crashed there.
 
-Usage: low_address_limit.py CHLADNI SOURCE_DIR
+Usage: low_address_limit.py CHLADNI SOURCE_DIR MPIRUN
 """
 
 import os
@@ -32,6 +32,22 @@ def wrong_later(chladni, scene, folder):
             yield f"{most} MiB: exit code {done.returncode}, {done.stderr}"
 
 
+def wrong_with_scratch_files(chladni, scene, folder, mpirun):
+    """Files in a folder that has room for them need addresses too."""
+    for ranks, most in ((1, 600), (1, 800), (2, 700)):
+        limited = ["sh", "-c", f'ulimit -v {most * 1024}; exec "$@"', "limited"]
+        try:
+            done = start(*limited, chladni, "reduce", scene, "--output", folder, "--", "-cms_scratch", folder,
+                         mpirun=mpirun, ranks=ranks, timeout=60,
+                         env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})  # fmt: skip
+        except subprocess.TimeoutExpired:
+            yield f"{most} MiB on {ranks} ranks with -cms_scratch: it does not end"
+            continue
+        is_told = "ulimit -v" in done.stderr and "no room" not in done.stderr
+        if done.returncode != 1 or not is_told:
+            yield f"{most} MiB on {ranks} ranks with -cms_scratch: exit code {done.returncode}, {done.stderr}"
+
+
 def wrong(chladni, scene, folder):
     refused = 0
     for most in range(300, 900, 60):
@@ -50,11 +66,13 @@ def wrong(chladni, scene, folder):
         yield "no limit was called too low"
 
 
-def main(chladni, source):
+def main(chladni, source, mpirun):
     with tempfile.TemporaryDirectory() as folder:
         scene = Path(source) / "examples/beam/cantilever.toml"
         failures = list(wrong(chladni, scene, folder))
-        failures += wrong_later(chladni, Path(source) / "examples/thesis_disc/scene.toml", folder)
+        thesis = Path(source) / "examples/thesis_disc/scene.toml"
+        failures += wrong_later(chladni, thesis, folder)
+        failures += wrong_with_scratch_files(chladni, thesis, folder, mpirun)
     print("\n".join(f"FAILED: {line}" for line in failures))
     sys.exit(bool(failures))
 
