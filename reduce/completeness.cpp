@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "common/error.hpp"
@@ -81,15 +82,18 @@ std::ptrdiff_t n_below(const std::vector<double>& lambda, double sigma)
   return std::ranges::lower_bound(lambda, sigma) - lambda.begin();
 }
 
-/// A projection has no more eigenvalues below sigma than the pencil (Courant and Fischer).
+/// A projection has no more eigenvalues below sigma than the pencil (Courant and Fischer), but
+/// where rounding has more to say than K and M: in a mechanism without mass, or where stiffnesses
+/// differ by more digits than numbers have.
 EigenvalueCount counted(const EigenvalueCount& count)
 {
   if (count.missing() >= 0) return count;
   throw Error(fmt::format(
-      "internal error: {} eigenvalues counted below {:.15g} rad^2/s^2, where the reduced model has "
-      "{}: a projection cannot have more of them, so the pivots of K - sigma M are wrong; reduce "
-      "without a count of eigenvalues",
-      count.expected, count.sigma, count.found));
+      "K and M are too close to singular for a count of eigenvalues: {} counted below {:.6g} Hz, "
+      "where the reduced model has {}, which can only be rounding; look for a part that nothing "
+      "holds and for stiffnesses or masses of very different size, or reduce without the count "
+      "(sylvester = false, -cms_sylvester 0, count=False)",
+      count.expected, std::sqrt(count.sigma) / (2.0 * std::numbers::pi), count.found));
 }
 
 /// The count at a shift, or at one close above or below it if that is an eigenvalue to round-off,

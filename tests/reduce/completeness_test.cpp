@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "linear/cholesky/condition_estimate.hpp"
@@ -197,14 +198,21 @@ TEST(ErrorBounds, OfTheLastValueReachBeyondSigma)
   EXPECT_GE(error_bounds({lambda}, diagonal({eta2}), 1.01 * lambda)[0], lambda / exact - 1.0);
 }
 
-TEST(CountModes, RefusesACountBelowWhatIsThere)
+TEST(CountModes, RefusesACountBelowWhatIsThereAndSaysWhatToLookFor)
 {
-  EXPECT_THROW(count_modes({.lambda = {1.0, 2.0},
-                            .residuals = diagonal({1e-8, 1e-8}),
-                            .n_zero = 0,
-                            .comm = PETSC_COMM_SELF},
-                           [](double) { return 1; }),
-               Error);
+  try {
+    count_modes({.lambda = {1.0, 2.0},
+                 .residuals = diagonal({1e-8, 1e-8}),
+                 .n_zero = 0,
+                 .comm = PETSC_COMM_SELF},
+                [](double) { return 1; });
+    FAIL() << "a projection cannot have more eigenvalues";
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    for (const char* word : {"1 counted below 0.22", "has 2", "nothing holds", "sylvester = false"})
+      EXPECT_NE(text.find(word), std::string::npos) << word << " in: " << text;
+    EXPECT_EQ(text.find("internal"), std::string::npos) << text;
+  }
 }
 
 TEST(CountModes, FindsTheModeThatIsMissing)
