@@ -11,7 +11,7 @@
 #include "linear/dense/dense_solvers.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/loaded_dofs.hpp"
-#include "mbs_export/response_error.hpp"
+#include "mbs_export/reference_response.hpp"
 #include "mbs_export/response_sizes.hpp"
 #include "reduce/held_masters.hpp"
 
@@ -92,14 +92,14 @@ reduce::ResponseLoads loads_of(const reduce::ReducedModel& model, const std::vec
   const mbs_export::LoadedDofs forces{
       .dofs = loaded, .is_moment = std::vector<char>(loaded.size(), 0), .names = {}, .groups = {}};
   const mbs_export::ResponseSizes sizes = mbs_export::response_sizes(
-      mbs_export::reference_response(modes.omega, modes.X(loaded, every).transpose(), forces,
-                                     tolerance),
+      mbs_export::reference_modes(modes.omega, modes.X(loaded, every).transpose(), forces),
       tolerance);
   // A force at a node of a ring is a sum of these columns, whose errors add up.
   const double together = std::sqrt(static_cast<double>(loaded.size()));
   reduce::ResponseLoads loads{.F = MatrixXd::Zero(model.n_masters, std::ssize(loaded)),
                               .Omega = sizes.Omega,
-                              .size = sizes.size / together};
+                              .size = sizes.size / together,
+                              .loss_factor = mbs_export::stiffness_factor().imag()};
   for (std::size_t j = 0; j < loaded.size(); ++j)
     loads.F(loaded[j], Index(j)) = sizes.unit[Index(j)];
   return loads;

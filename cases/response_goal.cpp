@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "mbs_export/reference_response.hpp"
 #include "mbs_export/response_sizes.hpp"
 #include "reduce/reduction.hpp"
 #include "reduce_export/reduced_system.hpp"
@@ -18,7 +19,8 @@ reduce::ResponseLoads loads_of(const mbs_export::ResponseSizes& sizes,
 {
   reduce::ResponseLoads loads{.F = MatrixXd::Zero(n_masters, std::ssize(sizes.rows)),
                               .Omega = sizes.Omega,
-                              .size = sizes.size};
+                              .size = sizes.size,
+                              .loss_factor = mbs_export::stiffness_factor().imag()};
   for (std::size_t j = 0; j < sizes.rows.size(); ++j) {
     const int row = places[static_cast<std::size_t>(sizes.rows[j])];
     loads.F(row, Index(j)) = sizes.unit[Index(j)];

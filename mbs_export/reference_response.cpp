@@ -43,6 +43,23 @@ MatrixXd contributions(const VectorXd& omega, const MatrixXd& B, double Omega)
   return B.cwiseAbs2().transpose() * weight.asDiagonal();
 }
 
+MatrixXcd flexibility(const VectorXd& omega, const MatrixXd& B, double Omega)
+{
+  const VectorXcd of_modes = damped_stiffness(omega, Omega).cwiseInverse();
+  MatrixXcd H(B.cols(), B.cols());
+  H.real() = B.transpose() * (of_modes.real().asDiagonal() * B);
+  H.imag() = B.transpose() * (of_modes.imag().asDiagonal() * B);
+  return H;
+}
+
+constexpr double no_size = 1e-300;  // of a load that moves nothing
+
+VectorXd size_of(const MatrixXcd& H, const VectorXd& omega, const MatrixXd& B, double Omega)
+{
+  const VectorXd incoherent = contributions(omega, B, Omega).rowwise().sum().cwiseSqrt();
+  return H.colwise().norm().transpose().cwiseMax(incoherent).cwiseMax(no_size);
+}
+
 /// Clusters that respond at their own frequency with more than `error` of what all modes do.
 std::vector<int> resonances(const ReferenceResponse& reference, const Tolerance& tolerance)
 {
@@ -115,32 +132,55 @@ std::vector<int> moved_modes(const VectorXd& omega, const MatrixXd& B)
   return moved;
 }
 
+ReferenceResponse reference_modes(const VectorXd& omega, const MatrixXd& B, const LoadedDofs& loads)
+{
+  const VectorXd unit = commensurable_units(omega, B, loads.is_moment);
+  return {.omega = omega,
+          .B = B * unit.asDiagonal(),
+          .unit = unit,
+          .clusters = {},
+          .resonances = {},
+          .Omega = {},
+          .H = {},
+          .size = {}};
+}
+
 ReferenceResponse reference_response(const VectorXd& omega, const MatrixXd& B,
                                      const LoadedDofs& loads, const Tolerance& tolerance)
 {
-  const VectorXd unit = commensurable_units(omega, B, loads.is_moment);
-  ReferenceResponse reference{.omega = omega,
-                              .B = B * unit.asDiagonal(),
-                              .unit = unit,
-                              .clusters = mode_clusters(omega),
-                              .resonances = {},
-                              .Omega = {},
-                              .H = {},
-                              .size = {}};
+  ReferenceResponse reference = reference_modes(omega, B, loads);
+  reference.clusters = mode_clusters(omega);
   reference.resonances = resonances(reference, tolerance);
   reference.Omega = frequency_grid(reference, 2.0 * std::numbers::pi * tolerance.up_to_Hz);
   reference.size.resize(B.cols(), reference.Omega.size());
   for (Index g = 0; g < reference.Omega.size(); ++g) {
-    const VectorXcd flexibility = damped_stiffness(omega, reference.Omega[g]).cwiseInverse();
-    MatrixXcd H(B.cols(), B.cols());
-    H.real() = reference.B.transpose() * (flexibility.real().asDiagonal() * reference.B);
-    H.imag() = reference.B.transpose() * (flexibility.imag().asDiagonal() * reference.B);
-    const VectorXd incoherent =
-        contributions(omega, reference.B, reference.Omega[g]).rowwise().sum().cwiseSqrt();
-    reference.size.col(g) = H.colwise().norm().transpose().cwiseMax(incoherent).cwiseMax(1e-300);
+    MatrixXcd H = flexibility(omega, reference.B, reference.Omega[g]);
+    reference.size.col(g) = size_of(H, omega, reference.B, reference.Omega[g]);
     reference.H.push_back(std::move(H));
   }
   return reference;
+}
+
+SizesInBand sizes_in_band(const ReferenceResponse& reference, double from, double to)
+{
+  const VectorXd& omega = reference.omega;
+  const MatrixXd& B = reference.B;
+  const double s_from = from * from, s_to = to * to, s_middle = 0.5 * (s_from + s_to);
+  const Eigen::ArrayXd lambda = omega.array().square(), norms = B.rowwise().norm();
+  // |d|^2 of the modes, which is convex in s = Omega^2.
+  const auto squares = [&](const auto& s) -> Eigen::ArrayXd {
+    return (lambda - s).square() + (stiffness_factor().imag() * lambda).square();
+  };
+  const Eigen::ArrayXd largest = squares(s_from).max(squares(s_to));
+  const VectorXd least_shares = (largest > 0.0).select(norms.square() / largest.max(no_size), 0.0);
+  VectorXd at_least = (B.cwiseAbs2().transpose() * least_shares).cwiseSqrt().cwiseMax(no_size);
+  const MatrixXcd H = flexibility(omega, B, std::sqrt(s_middle));
+  const Eigen::ArrayXd smallest = squares(lambda.max(s_from).min(s_to));
+  if (smallest.minCoeff() > 0.0) {  // |dH/ds| <= |B|^T |d|^-2 |B|
+    const VectorXd slope = B.cwiseAbs().transpose() * (norms / smallest).matrix();
+    at_least = at_least.cwiseMax(H.colwise().norm().transpose() - (s_to - s_middle) * slope);
+  }
+  return {.at_least = std::move(at_least), .in_middle = size_of(H, omega, B, std::sqrt(s_middle))};
 }
 
 }  // namespace chladni::mbs_export

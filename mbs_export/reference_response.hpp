@@ -30,6 +30,12 @@ struct ReferenceResponse {
 /// @return ascending, 0-based
 std::vector<int> moved_modes(const Eigen::VectorXd& omega, const Eigen::MatrixXd& B);
 
+/// The modes of a reference alone, which tell its sizes in any band.
+/// @param omega  [n] rad/s, all modes of the held body
+/// @param B      [n x m] mode shapes at the loads
+ReferenceResponse reference_modes(const Eigen::VectorXd& omega, const Eigen::MatrixXd& B,
+                                  const LoadedDofs& loads);
+
 /// The reference of a body. Its grid has each resonance that contributes more than the tolerance,
 /// points 1 % beside it on both sides, three frequencies between neighbours, and the ends of the
 /// range.
@@ -37,6 +43,18 @@ std::vector<int> moved_modes(const Eigen::VectorXd& omega, const Eigen::MatrixXd
 /// @param B      [n x m] mode shapes at the loads
 ReferenceResponse reference_response(const Eigen::VectorXd& omega, const Eigen::MatrixXd& B,
                                      const LoadedDofs& loads, const Tolerance& tolerance);
+
+/// The sizes that errors of the responses to each load are relative to, |H e_j|, or the root sum of
+/// squares of what the modes contribute if it is larger.
+struct SizesInBand {
+  Eigen::VectorXd at_least;   ///< [m] what they are not below at any frequency of the band
+  Eigen::VectorXd in_middle;  ///< [m] at one frequency
+};
+
+/// The sizes of `reference_modes` from one frequency to another one. Bounds are the tighter the
+/// narrower the band.
+/// @param from, to  rad/s, from < to
+SizesInBand sizes_in_band(const ReferenceResponse& reference, double from, double to);
 
 /// The diagonal of (1 + i eta) diag(omega^2) - Omega^2.
 Eigen::VectorXcd damped_stiffness(const Eigen::VectorXd& omega, double Omega);

@@ -1,6 +1,5 @@
 #include "mbs_export/response_sizes.hpp"
 
-#include <limits>
 #include <numbers>
 
 #include "common/eigen_every.hpp"
@@ -23,41 +22,35 @@ int master_of(const ReducedSystem& reduced, int dof)
                         "a ring of harmonics are none");
 }
 
-constexpr Index n_frequencies = 12;
+/// What sizes are not below in a band: the least of both halves, until it is close to a size that
+/// occurs.
+class LeastSizes {
+ public:
+  explicit LeastSizes(const ReferenceResponse& reference) : reference_(reference) {}
 
-/// n_frequencies of the range.
-VectorXd frequencies(double Omega_max)
-{
-  return VectorXd::LinSpaced(n_frequencies, Omega_max / n_frequencies, Omega_max);
-}
-
-/// The place of the frequency that is nearest.
-Index nearest(const VectorXd& Omega, double one)
-{
-  Index place = 0;
-  (Omega.array() - one).abs().minCoeff(&place);
-  return place;
-}
-
-/// Of the frequencies of the reference that are nearest to each; where there are none, of the two
-/// on both sides.
-MatrixXd least_sizes(const ReferenceResponse& reference, const VectorXd& Omega)
-{
-  constexpr double unknown = std::numeric_limits<double>::infinity();
-  MatrixXd least = MatrixXd::Constant(reference.size.rows(), Omega.size(), unknown);
-  const auto lower = [&](Index place, Index g) {
-    least.col(place) = least.col(place).cwiseMin(reference.size.col(g)).eval();
-  };
-  const Index n = reference.Omega.size();
-  for (Index g = 0; g < n; ++g) lower(nearest(Omega, reference.Omega[g]), g);
-  for (Index place = 0; place < Omega.size(); ++place) {
-    if (least.rows() == 0 || least(0, place) < unknown) continue;
-    const Index above = (reference.Omega.array() < Omega[place]).count();
-    if (above > 0) lower(place, above - 1);
-    if (above < n) lower(place, above);
+  VectorXd between(double from, double to)
+  {
+    occurring_ = sizes_in_band(reference_, from, to).in_middle;
+    return at_least(from, to, 0);
   }
-  return least;
-}
+
+ private:
+  VectorXd at_least(double from, double to, int depth)
+  {
+    constexpr double close = 0.7;
+    constexpr int deepest = 10;
+    const SizesInBand sizes = sizes_in_band(reference_, from, to);
+    occurring_ = occurring_.cwiseMin(sizes.in_middle);
+    if (depth == deepest || (sizes.at_least.array() >= close * occurring_.array()).all())
+      return sizes.at_least;
+    const double middle = 0.5 * (from + to);
+    const VectorXd lower = at_least(from, middle, depth + 1);
+    return lower.cwiseMin(at_least(middle, to, depth + 1));
+  }
+
+  const ReferenceResponse& reference_;
+  VectorXd occurring_;  ///< the least sizes of all frequencies that were looked at
+};
 
 /// All modes of the held body, and their motion at some DOFs.
 struct Shapes {
@@ -80,12 +73,17 @@ Shapes shapes_at(const ReducedSystem& reduced, const std::vector<std::string>& f
 
 ResponseSizes response_sizes(const ReferenceResponse& reference, const Tolerance& tolerance)
 {
-  const VectorXd Omega = frequencies(2.0 * std::numbers::pi * tolerance.up_to_Hz);
-  return {.rows = {},
-          .names = {},
-          .unit = reference.unit,
-          .Omega = Omega,
-          .size = least_sizes(reference, Omega)};
+  constexpr Index n_bands = 24;
+  const double end = 2.0 * std::numbers::pi * tolerance.up_to_Hz;
+  ResponseSizes sizes{.rows = {},
+                      .names = {},
+                      .unit = reference.unit,
+                      .Omega = VectorXd::LinSpaced(n_bands + 1, 0.0, end),
+                      .size = MatrixXd(reference.B.cols(), n_bands)};
+  LeastSizes least(reference);
+  for (Index g = 0; g < n_bands; ++g)
+    sizes.size.col(g) = least.between(sizes.Omega[g], sizes.Omega[g + 1]);
+  return sizes;
 }
 
 ResponseSizes response_sizes(const ReducedSystem& reduced, const BodyOptions& options)
@@ -94,9 +92,9 @@ ResponseSizes response_sizes(const ReducedSystem& reduced, const BodyOptions& op
       loaded_dofs(reduced, held_dofs(reduced, options.fixed), options.interface_modes);
   const Shapes shapes = shapes_at(reduced, options.fixed, loads.dofs);
   const std::vector<int> moved = moved_modes(shapes.omega, shapes.B);
-  const ReferenceResponse reference = reference_response(
-      shapes.omega(moved), shapes.B(moved, every), loads, options.keep.tolerance.value());
-  ResponseSizes sizes = response_sizes(reference, *options.keep.tolerance);
+  ResponseSizes sizes =
+      response_sizes(reference_modes(shapes.omega(moved), shapes.B(moved, every), loads),
+                     options.keep.tolerance.value());
   sizes.names = loads.names;
   for (const int dof : loads.dofs) sizes.rows.push_back(master_of(reduced, dof));
   return sizes;

@@ -14,10 +14,8 @@ struct ResponseSizes {
   std::vector<int> rows;           ///< [m] loaded masters
   std::vector<std::string> names;  ///< "track.z" for all nodes of a set
   Eigen::VectorXd unit;            ///< [m] scales that make forces and moments comparable
-  /// [g] rad/s, about a dozen up to the end of the range
-  Eigen::VectorXd Omega;
-  /// [m x g] Size of the responses to a load, scaled by `unit`: the minimum from half-way to the
-  /// previous frequency to half-way to the next one.
+  Eigen::VectorXd Omega;  ///< [g + 1] rad/s, the ends of bands from 0 to the end of the range
+  /// [m x g] What the size of the responses to a load, scaled by `unit`, is not below in a band.
   Eigen::MatrixXd size;
 };
 
@@ -28,7 +26,7 @@ ResponseSizes response_sizes(const ReducedSystem& reduced, const BodyOptions& op
 
 struct ReferenceResponse;
 
-/// The frequencies and sizes of known responses; rows and names stay empty.
+/// The bands and sizes of known responses; rows and names stay empty.
 ResponseSizes response_sizes(const ReferenceResponse& reference, const Tolerance& tolerance);
 
 }  // namespace chladni::mbs_export

@@ -154,12 +154,16 @@ MatrixXd ResidualForms::with_masters(Mat right) const
 
 MatrixXd ResidualForms::energy(const MatrixXd& X, double s) const
 {
-  const Index n_q = std::ssize(of_.model.omega);
-  const MatrixXd X_q = X.bottomRows(n_q);
-  MatrixXd G = s * s * linear::product(X.transpose(), linear::product(H_, X));
-  G += X_q.transpose() * (stiffness_of_modes(of_.model).asDiagonal() * X_q);
-  const MatrixXd momentum = linear::product(of_.model.M.bottomRows(n_q), X);
-  G -= 2.0 * s * linear::product(X_q.transpose(), momentum);
+  return energy({.elastic = X.bottomRows(std::ssize(of_.model.omega)), .inertia = s * X});
+}
+
+MatrixXd ResidualForms::energy(const ForcedMotions& motions) const
+{
+  const auto& [P, X] = motions;
+  MatrixXd G = linear::product(X.transpose(), linear::product(H_, X));
+  G += linear::product(P.transpose(), stiffness_of_modes(of_.model).asDiagonal() * P);
+  const MatrixXd momentum = linear::product(of_.model.M.bottomRows(P.rows()), X);
+  G -= 2.0 * linear::product(P.transpose(), momentum);
   return symmetric(G);
 }
 

@@ -19,6 +19,12 @@ struct GrowingBasis {
   std::optional<std::vector<int>> moving = {};
 };
 
+/// Motions whose elastic forces and inertia forces at the slaves are of different frequencies.
+struct ForcedMotions {
+  Eigen::MatrixXd elastic;  ///< [n_CB x l] the part of the modes, whose forces are K_ss Phi p
+  Eigen::MatrixXd inertia;  ///< [n_m + n_CB x l] less those of inertia, B x_m + D x_q
+};
+
 /// Residual forces at the slaves that motions x of a reduced model leave at any frequency, s =
 /// Omega^2: r = K_ss Phi x_q - s (B x_m + D x_q) with B = M_ss Psi + M_sm, D = M_ss Phi, and
 /// r^T K_ss^-1 r = x_q^T K_qq x_q - 2 s x_q^T (M_qm x_m + M_qq x_q) + s^2 x^T H x.
@@ -34,6 +40,7 @@ class ResidualForms {
   /// @param s  Omega^2, rad^2/s^2
   /// @return [l x l]
   Eigen::MatrixXd energy(const Eigen::MatrixXd& X, double s) const;
+  Eigen::MatrixXd energy(const ForcedMotions& motions) const;
   /// K_ss^-1 r of motions X: the shapes, zero at the masters, that reduce the error most.
   /// @return [slaves that move x l] dense
   petsc::Matrix shapes(const Eigen::MatrixXd& X, double s) const;

@@ -14,6 +14,7 @@
 #include "linear/kernels/small_matrices.hpp"
 #include "reduce/held_masters.hpp"
 #include "reduce/residual_forms.hpp"
+#include "reduce/unbalanced_forces.hpp"
 
 namespace chladni::reduce {
 
@@ -21,32 +22,23 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 namespace {
 
-/// The same matrix on all ranks, whatever round-off made of it.
-MatrixXd of_first_rank(MatrixXd A, MPI_Comm comm)
-{
-  linear::broadcast_numbers(linear::values_of(A), comm);
-  return A;
-}
-
 /// X = (K_r - Omega^2 M_r)^-1 F with some masters held, or still anyway.
 MatrixXd responses(const ReducedModel& model, const MatrixXd& F, double Omega,
-                   const std::vector<int>& held, MPI_Comm comm)
+                   const std::vector<int>& held)
 {
   MatrixXd X = MatrixXd::Zero(model.K.rows(), F.cols());
-  on_first_rank(comm, [&] {
-    const std::vector<int> free = all_but(held, model.K.rows());
-    const MatrixXd A = model.K(free, free) - Omega * Omega * model.M(free, free);
-    MatrixXd all = MatrixXd::Zero(model.K.rows(), F.cols());
-    all.topRows(F.rows()) = F;
-    const MatrixXd loads = all(free, every);
-    MatrixXd of_free = MatrixXd::Zero(loads.rows(), loads.cols());
-    for (const std::vector<Index>& set : linear::decoupled_coordinates(A, A)) {
-      const MatrixXd of_set = loads(set, every);
-      if (!of_set.isZero(0.0)) of_free(set, every) = linear::solution(A(set, set), of_set);
-    }
-    X(free, every) = of_free;
-  });
-  return of_first_rank(std::move(X), comm);
+  const std::vector<int> free = all_but(held, model.K.rows());
+  const MatrixXd A = model.K(free, free) - Omega * Omega * model.M(free, free);
+  MatrixXd all = MatrixXd::Zero(model.K.rows(), F.cols());
+  all.topRows(F.rows()) = F;
+  const MatrixXd loads = all(free, every);
+  MatrixXd of_free = MatrixXd::Zero(loads.rows(), loads.cols());
+  for (const std::vector<Index>& set : linear::decoupled_coordinates(A, A)) {
+    const MatrixXd of_set = loads(set, every);
+    if (!of_set.isZero(0.0)) of_free(set, every) = linear::solution(A(set, set), of_set);
+  }
+  X(free, every) = of_free;
+  return X;
 }
 
 /// A matrix of the first rank on all ranks.
@@ -56,19 +48,6 @@ void broadcast(MatrixXd& A, MPI_Comm comm)
   MPI_Bcast(size.data(), 2 * sizeof(Index), MPI_BYTE, 0, comm);
   A.conservativeResize(size[0], size[1]);
   linear::broadcast_numbers(linear::values_of(A), comm);
-}
-
-/// Loads and sizes of the first rank.
-ResponseLoads loads_everywhere(const ResponseGoal& goal, const ReducedModel& model, MPI_Comm comm)
-{
-  ResponseLoads loads;
-  on_first_rank(comm, [&] { loads = goal.loads(model); });
-  MatrixXd Omega = loads.Omega;
-  broadcast(loads.F, comm);
-  broadcast(loads.size, comm);
-  broadcast(Omega, comm);
-  loads.Omega = Omega;
-  return loads;
 }
 
 /// Without what couples masters and modes by round-off: modes of the whole body have a share of it
@@ -149,25 +128,49 @@ void require_modes_of_range(double Omega, double lambda_left_out)
       Omega / two_pi, std::sqrt(lambda_left_out) / two_pi));
 }
 
-}  // namespace
-
-VectorXd response_error_bounds(const MatrixXd& G, double Omega, double lambda_left_out)
-{
-  const double c = softening(Omega, lambda_left_out);
-  const double norm =
-      Eigen::SelfAdjointEigenSolver<MatrixXd>(G, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-  return G.colwise().norm().transpose().array() +
-         (c - 1.0) * (std::max(norm, 0.0) * G.diagonal().cwiseMax(0.0).array()).sqrt();
-}
-
-namespace {
-
 /// Where a model is furthest from the goal.
 struct Worst {
   double error = -1.0;  ///< bound over size
-  Index g = 0;
-  MatrixXd X, G;
+  double Omega = 0.0;   ///< rad/s, in the middle of the band
+  MatrixXd motions;     ///< whose residual forces make most of the error there
 };
+
+/// Of all bands.
+Worst worst_of(const LoadedModel& of, const ResponseLoads& loads, double tolerance)
+{
+  const UnbalancedForces forces(of, loads.F);
+  Worst worst;
+  Index g_worst = 0;
+  for (Index g = 0; g < loads.size.cols(); ++g) {
+    const double error = forces
+                             .error_bounds({.from = loads.Omega[g],
+                                            .to = loads.Omega[g + 1],
+                                            .loss_factor = loads.loss_factor})
+                             .cwiseQuotient(loads.size.col(g))
+                             .maxCoeff();
+    if (error <= worst.error) continue;
+    worst.error = error;
+    g_worst = g;
+  }
+  if (worst.error <= tolerance) return worst;
+  worst.Omega = 0.5 * (loads.Omega[g_worst] + loads.Omega[g_worst + 1]);
+  const MatrixXd X = responses(of.model, loads.F, worst.Omega, of.still);
+  worst.motions =
+      linear::product(X, combinations_above(of.forms.energy(X, worst.Omega * worst.Omega),
+                                            tolerance * loads.size.col(g_worst),
+                                            softening(worst.Omega, of.lambda_left_out)));
+  return worst;
+}
+
+/// Of the first rank on all ranks.
+void broadcast(Worst& worst, MPI_Comm comm)
+{
+  std::array<double, 2> numbers{worst.error, worst.Omega};
+  MPI_Bcast(numbers.data(), 2, MPI_DOUBLE, 0, comm);
+  worst.error = numbers[0];
+  worst.Omega = numbers[1];
+  broadcast(worst.motions, comm);
+}
 
 }  // namespace
 
@@ -179,40 +182,37 @@ ResponseCertificate keep_responses(const WholeSystem& body, const RespondingMode
   constexpr double falls = 0.9;  // in two rounds, or round-off has it
   require_modes_of_range(goal.Omega, lambda_left_out);
   const MPI_Comm comm = petsc::communicator(body.K_blocks.ss);
-  const ResponseLoads loads = loads_everywhere(goal, made.model, comm);
-  const std::vector<int> still = still_masters(made.model, loads.F, held, comm);
+  ResponseLoads loads;
+  on_first_rank(comm, [&] { loads = goal.loads(made.model); });
+  MatrixXd F = loads.F;
+  broadcast(F, comm);
+  const std::vector<int> still = still_masters(made.model, F, held, comm);
   ResidualForms forms({.K_ss = body.K_ss,
                        .K = body.K_blocks,
                        .M = body.M_blocks,
                        .Q_CB = made.Q_CB,
                        .model = made.model,
                        .moving = all_but(still, made.model.n_masters)});
-  const auto worst_of = [&] {
-    Worst worst;
-    for (Index g = 0; g < loads.Omega.size(); ++g) {
-      const double Omega = loads.Omega[g];
-      MatrixXd X = responses(made.model, loads.F, Omega, still, comm);
-      MatrixXd G = of_first_rank(forms.energy(X, Omega * Omega), comm);
-      const double error = response_error_bounds(G, Omega, lambda_left_out)
-                               .cwiseQuotient(loads.size.col(g))
-                               .maxCoeff();
-      if (error > worst.error) worst = {error, g, std::move(X), std::move(G)};
-    }
-    return worst;
-  };
+  const LoadedModel loaded{.forms = forms,
+                           .model = made.model,
+                           .still = still,
+                           .lambda_left_out = lambda_left_out,
+                           .lambda_of_range = goal.Omega * goal.Omega};
   std::array<double, 2> before{std::numeric_limits<double>::infinity(),
                                std::numeric_limits<double>::infinity()};
   for (int round = 0;; ++round) {
-    const Worst worst = worst_of();
-    const bool is_stuck = worst.error > falls * std::exchange(before[round % 2], worst.error);
+    Worst worst;
+    on_first_rank(comm, [&] {
+      if (round > 0) loads = goal.loads(made.model);  // sizes are those of the model as it is
+      worst = worst_of(loaded, loads, goal.tolerance);
+    });
+    broadcast(worst, comm);
+    const bool is_stuck = !(worst.error < falls * std::exchange(before[round % 2], worst.error));
     if (worst.error <= goal.tolerance || is_stuck || round == most_rounds) {
       if (round > 0) forms.make_ritz();
       return {.Omega = goal.Omega, .error = worst.error};
     }
-    const double Omega = loads.Omega[worst.g];
-    const MatrixXd V = combinations_above(worst.G, goal.tolerance * loads.size.col(worst.g),
-                                          softening(Omega, lambda_left_out));
-    forms.append(forms.shapes(linear::product(worst.X, V), Omega * Omega));
+    forms.append(forms.shapes(worst.motions, worst.Omega * worst.Omega));
   }
 }
 

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <numbers>
 
 #include "mbs_export/files/body_file.hpp"
 #include "mbs_export/make_body.hpp"
+#include "mbs_export/reference_response.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
@@ -33,8 +35,44 @@ TEST(ResponseSizes, AreThoseOfTheLoadsOfTheTolerance)
   for (const int row : sizes.rows) EXPECT_EQ(wheel.masters[std::size_t(row)].component, 2);
   EXPECT_NEAR(sizes.Omega[sizes.Omega.size() - 1], 2.0 * std::numbers::pi * up_to_Hz, 1e-9);
   ASSERT_EQ(sizes.size.rows(), std::ssize(sizes.rows));
-  ASSERT_EQ(sizes.size.cols(), sizes.Omega.size());
+  ASSERT_EQ(sizes.size.cols(), sizes.Omega.size() - 1);
   EXPECT_GT(sizes.size.minCoeff(), 0.0);
+}
+
+/// |H e_j|, or the root sum of squares of what modes contribute if that is larger.
+Eigen::VectorXd size_at(const ReferenceResponse& modes, double Omega)
+{
+  const Eigen::VectorXcd d = damped_stiffness(modes.omega, Omega);
+  const Eigen::MatrixXcd H = modes.B.transpose() * d.cwiseInverse().asDiagonal() * modes.B;
+  const Eigen::VectorXd weight = modes.B.rowwise().squaredNorm().array() / d.array().abs2();
+  const Eigen::VectorXd squares = modes.B.cwiseAbs2().transpose() * weight;
+  return H.colwise().norm().transpose().cwiseMax(squares.cwiseSqrt());
+}
+
+TEST(ResponseSizes, AreBelowThoseOfAllFrequenciesOfTheirBandAndNearTheLeast)
+{
+  constexpr int n = 40, n_loads = 3, n_between = 400;
+  std::srand(5);
+  for (const int n_rigid : {0, 2}) {
+    Eigen::VectorXd omega = Eigen::VectorXd::LinSpaced(n, 200.0, 4.0 * up_to_Hz * std::numbers::pi);
+    omega.head(n_rigid).setZero();
+    const LoadedDofs loads{.dofs = {0, 1, 2}, .is_moment = {0, 0, 1}, .names = {}, .groups = {}};
+    const ReferenceResponse modes =
+        reference_modes(omega, Eigen::MatrixXd::Random(n, n_loads), loads);
+    const ResponseSizes sizes = response_sizes(modes, {.error = tolerance, .up_to_Hz = up_to_Hz});
+    for (Eigen::Index g = 0; g < sizes.size.cols(); ++g) {
+      Eigen::VectorXd least = Eigen::VectorXd::Constant(n_loads, 1e300);
+      for (int i = 1; i <= n_between; ++i) {
+        const double share = i / double(n_between);
+        least = least.cwiseMin(
+            size_at(modes, (1.0 - share) * sizes.Omega[g] + share * sizes.Omega[g + 1]));
+      }
+      for (int j = 0; j < n_loads; ++j) {
+        EXPECT_LE(sizes.size(j, g), (1.0 + 1e-12) * least[j]) << "band " << g << " load " << j;
+        EXPECT_GE(sizes.size(j, g), 0.5 * least[j]) << "band " << g << " load " << j;
+      }
+    }
+  }
 }
 
 /// A wheel whose reduction was certified.
