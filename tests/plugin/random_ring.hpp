@@ -10,16 +10,18 @@
 
 namespace chladni::reduce::testing {
 
-/// A ring of equal sectors of three components, every two nodes of a sector joined by a stiffness
-/// of any direction. Node 0 is a hub that all sectors share, then come three nodes of the low edge,
-/// three in the middle and three of the high edge.
+/// A ring of equal sectors about an axis through the hub, of three components, every two nodes of a
+/// sector joined by a stiffness of any direction. Node 0 is a hub that all sectors share, then come
+/// three nodes of the low edge, three in the middle and three of the high edge.
 class RandomRing {
  public:
   static constexpr int n_sector_nodes = 10, n_own = 6;
 
-  explicit RandomRing(int count) : count_(count)
+  explicit RandomRing(int count, const Eigen::Vector3d& axis = Eigen::Vector3d::UnitZ(),
+                      unsigned seed = 7)
+      : count_(count), axis_(axis.normalized())
   {
-    std::mt19937 random(7);
+    std::mt19937 random(seed);
     std::uniform_real_distribution<double> between(-1.0, 1.0);
     for (int a = 0; a < n_sector_nodes; ++a) {
       for (int b = 0; b <= a; ++b) {
@@ -32,7 +34,7 @@ class RandomRing {
   Eigen::Matrix3d turn(int sector) const
   {
     const double angle = 2.0 * std::numbers::pi * sector / count_;
-    return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    return Eigen::AngleAxisd(angle, axis_).toRotationMatrix();
   }
 
   /// Of sector j in the whole ring.
@@ -104,6 +106,7 @@ class RandomRing {
   }
 
   int count_;
+  Eigen::Vector3d axis_;
   std::vector<Pair> pairs_;
 };
 

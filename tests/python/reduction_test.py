@@ -1,7 +1,9 @@
 """Reductions of matrices of scipy and petsc4py; on several ranks under mpirun. Usage: reduction_test.py"""
 
+import os
 import pathlib
 import pickle
+import random
 import resource
 import signal
 import subprocess
@@ -272,6 +274,168 @@ class Cms(unittest.TestCase):
         cms.set_from_options()
         cms.solve()
         self.assertEqual(cms.dimensions(), (3, 7))
+
+
+def number_of_commits():
+    """Another seed with each commit; outside a repository always the same."""
+    git = ["git", "-C", str(pathlib.Path(__file__).parent), "rev-list", "--count", "HEAD"]
+    try:
+        return int(subprocess.run(git, capture_output=True, text=True, check=True).stdout)
+    except (OSError, subprocess.CalledProcessError):
+        return 1
+
+
+class Caller:
+    """Calls methods of a CMS in any order, and knows what it must have in the end."""
+
+    def __init__(self, dice, of_petsc):
+        self.dice = dice
+        self.operators = [(distributed(A), distributed(B)) if of_petsc else (A, B) for A, B in ((K, M), (2.0 * K, M), (K, 3.0 * M))]
+        self.matrices = ((K, M), (2.0 * K, M), (K, 3.0 * M))
+        self.is_first = not of_petsc or PETSc.COMM_WORLD.getRank() == 0
+        self.which, self.masters, self.held, self.type, self.modes, self.count = 0, [0, N - 1], [], "craig-bampton", 5, False
+        self.cms = chladni.CMS(*self.operators[0])
+        self.cms.set_interface(self.own(self.masters))
+        self.cms.set_dimensions(self.modes)
+
+    def own(self, rows):
+        return rows if self.is_first else []
+
+    def set_operators(self):
+        self.which = self.dice.randrange(3)
+        self.cms.set_operators(*self.operators[self.which])
+
+    def set_interface(self):
+        self.masters, self.held = self.dice.sample(range(N), self.dice.randint(1, 4)), []
+        self.cms.set_held([])
+        self.cms.set_interface(self.own(self.masters))
+
+    def set_held(self):
+        self.held = [i for i in self.masters if self.dice.random() < 0.5]
+        self.cms.set_held(self.own(self.held))
+
+    def set_type(self):
+        self.type = self.dice.choice(["guyan", "craig-bampton", "mixed-interface", "rubin"])
+        self.cms.set_type(self.type)
+
+    def set_dimensions(self):
+        self.modes = self.dice.randint(1, 8)
+        self.cms.set_dimensions(self.modes)
+
+    def set_sylvester(self):
+        self.count = self.dice.random() < 0.5
+        self.cms.set_sylvester(self.count)
+
+    def solve(self):
+        self.cms.solve()
+
+    def set_up(self):
+        self.cms.set_up()
+
+    def reset(self):
+        self.cms.reset()
+
+    def refused(self):
+        for wrong in (lambda: self.cms.set_type("gauyan"), lambda: self.cms.set_dimensions(-3), lambda: self.cms.set_cutoff(-1.0)):
+            try:
+                wrong()
+            except chladni.Error:
+                continue
+            raise AssertionError("it must be refused")
+
+    def asks(self):
+        """Whatever is there, or an error."""
+        for ask in (self.cms.frequencies, self.cms.error_bounds, self.cms.reduced_operators, self.cms.quality, self.cms.transformation):
+            try:
+                ask()
+            except chladni.Error:
+                pass
+
+    def calls(self, n):
+        steps = (self.set_operators, self.set_interface, self.set_held, self.set_type, self.set_dimensions, self.set_sylvester,
+                 self.solve, self.solve, self.set_up, self.reset, self.refused, self.asks)  # fmt: skip
+        for _ in range(n):
+            self.dice.choice(steps)()
+
+    def differences(self):
+        """Between what it has after all that and a reduction that is made at once, relative."""
+        self.cms.solve()
+        stiffness, mass = self.matrices[self.which]
+        own = {} if self.type == "guyan" else {"modes": self.modes}
+        fresh = chladni.reduce(stiffness, mass, self.masters, method=self.type, held=self.held, count=self.count, **own)
+        found = self.cms.frequencies()
+        if len(found) != len(fresh.frequencies) or len(self.cms.error_bounds()) != len(fresh.bounds):
+            return np.inf
+        return np.max(np.abs(found / fresh.frequencies - 1.0), initial=0.0)
+
+
+class Orders(unittest.TestCase):
+    def test_of_calls_do_not_matter(self):
+        first = 1000 * number_of_commits()
+        for seed in range(first, first + 25):
+            caller = Caller(random.Random(seed), of_petsc=seed % 2 == 0 or RANKS > 1)
+            caller.calls(12)
+            self.assertLess(caller.differences(), 1e-7, f"seed {seed}")
+
+    @unittest.skipUnless(RANKS == 1, "on one rank")
+    def test_of_several_threads_do_not_matter(self):
+        found = {}
+
+        def work(seed):
+            caller = Caller(random.Random(seed), of_petsc=False)
+            caller.calls(10)
+            found[seed] = caller.differences()
+
+        seeds = range(1000 * number_of_commits(), 1000 * number_of_commits() + 6)
+        threads = [threading.Thread(target=work, args=[seed]) for seed in seeds]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(found), len(seeds))
+        self.assertLess(max(found.values()), 1e-7, str(found))
+
+
+@unittest.skipUnless(RANKS == 1, "on one rank")
+class LongLife(unittest.TestCase):
+    def test_goes_on_after_interruptions_at_any_time(self):
+        dice = random.Random(number_of_commits())
+        large = chain(20000)
+        expected = chladni.reduce(*large, [0, 19999], modes=10).frequencies
+        start = time.monotonic()
+        chladni.reduce(*large, [0, 19999], modes=10)
+        duration, n_interrupted = time.monotonic() - start, 0
+        for _ in range(12):
+            timer = threading.Timer(dice.uniform(0.0, 1.1 * duration), os.kill, (os.getpid(), signal.SIGINT))
+            try:
+                timer.start()
+                chladni.reduce(*large, [0, 19999], modes=10)
+                timer.join()
+                time.sleep(0.05)
+            except KeyboardInterrupt:
+                n_interrupted += 1
+            timer.join()
+            found = chladni.reduce(*large, [0, 19999], modes=10).frequencies
+            np.testing.assert_allclose(found, expected, rtol=1e-9)
+        self.assertEqual(n_interrupted, 12)
+
+    def test_of_a_thousand_reductions_takes_no_more_memory(self):
+        def resident():
+            return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize()
+
+        small = chain(120)
+        methods = ("guyan", "craig-bampton", "mixed-interface", "rubin")
+
+        def some(n):
+            for i in range(n):
+                method = methods[i % len(methods)]
+                own = {} if method == "guyan" else {"modes": 4}
+                chladni.reduce(*small, [0, 119], method=method, count=i % 3 == 0, held=[0] if i % 2 else [], **own)
+
+        some(200)
+        before = resident()
+        some(1000)
+        self.assertLess(resident() - before, 2 << 20)
 
 
 if __name__ == "__main__":

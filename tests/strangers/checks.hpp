@@ -16,12 +16,20 @@ using Failures = std::vector<Failure>;
 struct Reference {
   Pencil pencil;
   Eigen::MatrixXd K, M;
-  Spectrum whole, held;
+  int n_rigid = 0;   ///< motions without energy that the support leaves
+  Spectrum whole{};  ///< under the support
+  Spectrum held{};   ///< with all masters held
 };
 Reference reference(const Pencil& pencil);
 
 /// The lowest eigenvalue of K_ss with its diagonal made 1; 0 where that cannot be.
 double least_of_slaves(const Reference& exact);
+
+/// What holds of frequencies, errors, bounds and counts, whatever the coordinates are.
+void check_spectrum(const Reference& exact, const Answer& answer, Failures& failures);
+
+/// A refusal, and the reason that it gives.
+Failures check_refusal(const Pencil& pencil, const Answer& answer);
 
 /// Everything that a projection promises; of MacNeal, which is none, what is left of it.
 Failures check(const Reference& exact, const Reduction& how, const Answer& answer);

@@ -97,6 +97,7 @@ Spectrum best_spectrum(const MatrixXd& K, const MatrixXd& M, int n_rigid)
 
 Spectrum spectrum(const MatrixXd& K, const MatrixXd& M, int n_rigid)
 {
+  if (K.rows() == 0) return {};
   Spectrum found = K.rows() <= most_in_long_double ? best_spectrum<Dense>(K, M, n_rigid)
                                                    : best_spectrum<MatrixXd>(K, M, n_rigid);
   for (int i = 0; i < std::min<int>(n_rigid, static_cast<int>(found.lambda.size())); ++i)

@@ -21,6 +21,7 @@ struct Pencil {
   std::vector<Entry> K{};  ///< both triangles
   std::vector<Entry> M{};
   std::vector<int> masters{};
+  std::vector<int> held{};  ///< of the masters
   /// A method must refuse it; a word of the message that says why. Empty: every method must
   /// succeed.
   std::string refusal{};

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
 #include "building.hpp"
+#include "dice.hpp"
 #include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::strangers {
@@ -15,39 +17,6 @@ namespace chladni::strangers {
 namespace {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
-
-/// Mixes all bits of a number into all others (SplitMix64).
-std::uint64_t mixed(std::uint64_t z)
-{
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-  return z ^ (z >> 31);
-}
-
-/// Its numbers are the same everywhere, unlike those of the distributions of <random>.
-class Dice {
- public:
-  /// Mixed, or the numbers of one seed would be those of the next, one step on.
-  explicit Dice(std::uint64_t seed) : state_(mixed(seed)) {}
-  /// In [0, 1).
-  double uniform()
-  {
-    state_ += 0x9E3779B97F4A7C15ULL;
-    return static_cast<double>(mixed(state_) >> 11) * 0x1p-53;
-  }
-  double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  /// Of logarithms.
-  double spread(double low, double high) { return low * std::pow(high / low, uniform()); }
-  /// first .. last
-  int integer(int first, int last)
-  {
-    return first + static_cast<int>(uniform() * (last - first + 1));
-  }
-  bool chance(double probability) { return uniform() < probability; }
-
- private:
-  std::uint64_t state_;
-};
 
 /// A spectrum without zeros, ascending.
 struct Values {
@@ -191,8 +160,40 @@ void draw_masters(Dice& dice, Pencil& pencil, bool with_hub)
   const int most = std::max(pencil.n_rigid + 1, pencil.n / 3);
   const int n_m = std::max({1, pencil.n_rigid, dice.chance(0.3) ? 1 : dice.integer(1, most)});
   pencil.masters.assign(rows.begin(), rows.begin() + n_m);
+  if (dice.chance(0.03)) pencil.masters = rows;  // no slaves are left
   if (with_hub && std::ranges::find(pencil.masters, 0) == pencil.masters.end())
     pencil.masters.front() = 0;
+  for (const int i : pencil.masters)
+    if (dice.chance(0.5)) pencil.held.push_back(i);
+  if (dice.chance(0.5)) pencil.held.clear();
+  if (dice.chance(0.1)) pencil.held = pencil.masters;
+}
+
+/// Two rows without mass, tied to another one by one bar of any direction: across it they move
+/// with neither stiffness nor mass, but for round-off.
+void add_massless_mechanism(Dice& dice, Pencil& pencil)
+{
+  const int x = pencil.n, y = pencil.n + 1;
+  const double angle = dice.uniform(0.0, 2.0 * std::numbers::pi), k = dice.spread(1e-2, 1e4);
+  const VectorXd bar = std::sqrt(k) * Eigen::Vector3d(std::cos(angle), std::sin(angle), -1.0);
+  const std::array<int, 3> rows{x, y, dice.integer(0, pencil.n - 1)};
+  add(pencil.K, rows, bar * bar.transpose());
+  pencil.n += 2;
+  for (const int row : {x, y})
+    if (dice.chance(0.5)) pencil.masters.push_back(row);
+}
+
+/// What no method may take: the word of the refusal that is due. Empty where nothing is wrong.
+std::string spoil(Dice& dice, Pencil& pencil)
+{
+  if (dice.chance(0.02)) {
+    pencil.masters.clear();
+    pencil.held.clear();
+    return "0 masters";
+  }
+  if (!dice.chance(0.05)) return {};
+  add_massless_mechanism(dice, pencil);
+  return "stiffness";
 }
 
 /// Whether the slaves can move with all masters held, or nearly so: then any method may refuse.
@@ -210,9 +211,17 @@ double in_Hz(double lambda)
 Reduction draw_reduction(Dice& dice, const Reference& exact)
 {
   const int n_held = static_cast<int>(exact.held.lambda.size());
-  const int n_rigid = exact.pencil.n_rigid, n = static_cast<int>(exact.whole.lambda.size());
-  const int kind = n_held == 0 ? 0 : dice.integer(0, 5);
+  const int n_rigid = exact.n_rigid, n = static_cast<int>(exact.whole.lambda.size());
+  const int kind = n_held == 0 ? 0 : dice.integer(0, 8);
   if (kind == 0) return {.type = CMSGUYAN};
+  const int few = std::max(1, (n - n_rigid) / 3);
+  if (kind == 6) return {.type = CMSMIXED, .modes = dice.integer(1, few)};
+  if (kind >= 7 && n > n_rigid) {
+    return {.type = kind == 7 ? CMSMIXED : CMSAUTO,
+            .tolerance = dice.spread(1e-6, 1e-1),
+            .up_to_Hz =
+                in_Hz(exact.whole.lambda[dice.integer(n_rigid, n - 1)] * dice.uniform(0.9, 1.5))};
+  }
   if (kind <= 2) return {.modes = dice.integer(1, n_held)};
   if (kind == 3) {
     return {.cutoff_Hz =
@@ -223,15 +232,16 @@ Reduction draw_reduction(Dice& dice, const Reference& exact)
             .up_to_Hz =
                 in_Hz(exact.whole.lambda[dice.integer(n_rigid, n - 1)] * dice.uniform(0.9, 1.5))};
   }
-  const int few = std::max(1, (n - n_rigid) / 3);
   return {.type = dice.chance(0.8) ? CMSRUBIN : CMSMACNEAL, .modes = dice.integer(1, few)};
 }
 
 std::string words_of(const Reduction& how)
 {
   if (how.cutoff_Hz > 0.0) return fmt::format("all modes below {:.6g} Hz", how.cutoff_Hz);
-  if (how.tolerance > 0.0)
-    return fmt::format("tolerance {:.1e} up to {:.6g} Hz", how.tolerance, how.up_to_Hz);
+  if (how.tolerance > 0.0) {
+    return fmt::format("{} with tolerance {:.1e} up to {:.6g} Hz", how.type, how.tolerance,
+                       how.up_to_Hz);
+  }
   return fmt::format("{} with {} modes", how.type, how.modes);
 }
 
@@ -250,13 +260,11 @@ Draw try_once(Dice& dice, std::uint64_t seed)
                            : family == 2 ? fill_by_springs(dice, pencil)
                                          : fill_by_branches(dice, pencil);
   draw_masters(dice, pencil, family == 3 && dice.chance(0.7));
-  const std::string words = fmt::format("{} rows, {} masters, {} rigid motions, {}", pencil.n,
-                                        pencil.masters.size(), pencil.n_rigid, kind);
-  Reference matrices{.pencil = pencil,
-                     .K = dense(pencil.K, pencil.n),
-                     .M = dense(pencil.M, pencil.n),
-                     .whole = {},
-                     .held = {}};
+  const std::string words =
+      fmt::format("{} rows, {} masters, {} of them held, {} rigid motions, {}", pencil.n,
+                  pencil.masters.size(), pencil.held.size(), pencil.n_rigid, kind);
+  Reference matrices{
+      .pencil = pencil, .K = dense(pencil.K, pencil.n), .M = dense(pencil.M, pencil.n)};
   return {.pencil = pencil, .exact = std::move(matrices), .how = {}, .words = words};
 }
 
@@ -269,7 +277,10 @@ Draw draw(std::uint64_t seed)
   while (moves_when_held(drawn.exact)) drawn = try_once(dice, seed);
   drawn.exact = reference(drawn.pencil);
   drawn.how = draw_reduction(dice, drawn.exact);
-  drawn.words += "; " + words_of(drawn.how);
+  drawn.how.is_shuffled = dice.chance(0.2);
+  drawn.pencil.refusal = spoil(dice, drawn.pencil);
+  drawn.words += "; " + words_of(drawn.how) + (drawn.how.is_shuffled ? ", shuffled" : "");
+  if (!drawn.pencil.refusal.empty()) drawn.words += ", to be refused: " + drawn.pencil.refusal;
   return drawn;
 }
 

@@ -46,6 +46,8 @@ std::string message_of(PetscErrorCode code)
   return message;
 }
 
+}  // namespace
+
 PetscErrorCode set(CMS cms, const Reduction& how)
 {
   PetscFunctionBegin;
@@ -59,6 +61,8 @@ PetscErrorCode set(CMS cms, const Reduction& how)
     PetscCall(CMSSetTolerance(cms, how.tolerance, how.up_to_Hz));
   PetscFunctionReturn(0);
 }
+
+namespace {
 
 template <class Get>
 std::vector<double> values(CMS cms, const Get& get)
@@ -94,24 +98,75 @@ using Solver = petsc::Owned<CMS, CMSDestroy>;
 
 }  // namespace
 
+namespace {
+
+Rows shuffled(const std::vector<Entry>& entries, int n)
+{
+  std::vector<std::vector<std::pair<PetscInt, double>>> rows(static_cast<std::size_t>(n));
+  for (const Entry& a : entries) {
+    auto& row = rows[static_cast<std::size_t>(a.row)];
+    row.emplace_back(a.column, 0.375 * a.value);
+    row.insert(row.begin(), {a.column, 0.625 * a.value});
+  }
+  Rows all{.first = {0}, .column = {}, .value = {}};
+  for (auto& row : rows) {
+    std::ranges::sort(row, {}, [](const auto& entry) { return std::sin(1e3 * entry.second); });
+    for (const auto& [column, value] : row) {
+      all.column.push_back(column);
+      all.value.push_back(value);
+    }
+    all.first.push_back(static_cast<PetscInt>(all.column.size()));
+  }
+  return all;
+}
+
+petsc::Matrix matrix_on(Rows& rows)
+{
+  petsc::Matrix A;
+  const auto n = static_cast<PetscInt>(rows.first.size()) - 1;
+  petsc::check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, rows.first.data(),
+                                         rows.column.data(), rows.value.data(), A.put()));
+  return A;
+}
+
+}  // namespace
+
 Operators operators(const Pencil& pencil, MPI_Comm comm)
 {
   return {.K = matrix(pencil.K, pencil.n, comm), .M = matrix(pencil.M, pencil.n, comm)};
 }
 
+Operators shuffled_operators(const Pencil& pencil)
+{
+  Operators A{.of_K = shuffled(pencil.K, pencil.n), .of_M = shuffled(pencil.M, pencil.n)};
+  A.K = matrix_on(A.of_K);
+  A.M = matrix_on(A.of_M);
+  return A;
+}
+
 Answer reduce(const Pencil& pencil, const Reduction& how, MPI_Comm comm)
 {
-  const Operators A = operators(pencil, comm);
+  const bool is_shuffled = how.is_shuffled && petsc::size(comm) == 1;
+  const Operators A = is_shuffled ? shuffled_operators(pencil) : operators(pencil, comm);
   const petsc::IndexSet masters = interface(pencil.masters, comm);
+  const petsc::IndexSet held = interface(pencil.held, comm);
   Solver cms;
   Answer answer;
   petsc::check(CMSCreate(comm, cms.put()));
   answer.code = set(cms, how);
   if (!answer.code) answer.code = CMSSetOperators(cms, A.K, A.M, nullptr);
   if (!answer.code) answer.code = CMSSetInterface(cms, masters);
+  if (!answer.code && !pencil.held.empty()) answer.code = CMSSetHeld(cms, held);
   if (!answer.code) answer.code = CMSSolve(cms);
-  if (answer.code)
-    answer.message = message_of(answer.code);
+  return answer_of(cms, answer.code);
+}
+
+Answer answer_of(CMS cms, PetscErrorCode code)
+{
+  Answer answer;
+  answer.code = code;
+  if (code)
+    answer.message = message_of(code);
   else
     read(cms, answer);
   return answer;

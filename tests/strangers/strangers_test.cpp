@@ -114,13 +114,6 @@ Failures agreement(PetscErrorCode code)
   return {{"disagreement", "an error on some ranks only"}};
 }
 
-Failures check_refusal(const Pencil& pencil, const Answer& answer)
-{
-  if (!answer.code) return {{"accepted", "it must be refused: " + pencil.refusal}};
-  if (answer.message.find(pencil.refusal) != std::string::npos) return {};
-  return {{"unclear", answer.message}};
-}
-
 Failures reduce_and_check(const std::string& name, const std::string& way)
 {
   const Pencil& pencil = pencil_named(name);
