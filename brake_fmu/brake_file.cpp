@@ -162,6 +162,7 @@ void transfer_pads(auto& archive, auto& pads, auto& law)
   archive.each(pads.points, [](auto& inner, auto& point) {
     inner(point.pad);
     inner(point.angle);
+    inner(point.patch);
     for (auto& ring : point.rings) inner(ring);
     transfer_contact(inner, point.contact);
     inner.matrix(point.upper);

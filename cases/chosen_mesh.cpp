@@ -13,6 +13,7 @@
 #include "cases/ranks.hpp"
 #include "cases/size_of_mesh.hpp"
 #include "common/error.hpp"
+#include "common/told_apart.hpp"
 #include "plate/dofs/dof_map.hpp"
 #include "report/progress.hpp"
 
@@ -58,12 +59,13 @@ MeshChoice own_mesh(const scene::Scene& supported, const scene::Scene& scene,
 {
   MeshChoice choice{.scene = scene, .errors = errors_of(supported, range_of(scene), solver)};
   if (scene.accuracy && choice.errors->largest() > share_of_mesh * scene.accuracy->error) {
-    throw Error(
-        fmt::format("{}: accuracy.error = {:.1e}: the mesh of {} has an error of {:.1e} up to "
-                    "{:.6g} Hz, and its "
-                    "size cannot be chosen; give a finer one",
-                    scene.path, scene.accuracy->error, *scene.mesh.file, choice.errors->largest(),
-                    scene.accuracy->up_to_Hz));
+    const double error = choice.errors->largest();
+    const auto [reached, allowed] = told_apart(error, share_of_mesh * scene.accuracy->error);
+    throw Error(fmt::format(
+        "{}: accuracy.error = {:.6g}: the mesh may have {} of it, and that of {} has an error of "
+        "{} up to {:.6g} Hz; its size cannot be chosen: give a finer one, or ask for {:.2g}",
+        scene.path, scene.accuracy->error, allowed, *scene.mesh.file, reached,
+        scene.accuracy->up_to_Hz, possible_error(error)));
   }
   return choice;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "cases/mesh_scene.hpp"
 #include "cases/reduce_steps.hpp"
 #include "cases/refined_errors.hpp"
 #include "cases/size_of_mesh.hpp"
@@ -91,6 +92,54 @@ CommonNodes interface_nodes(const scene::Scene& scene, const mesh::Mesh& one,
     }
   }
   return common;
+}
+
+/// Components of a loaded node: displacements, and rotations across the axis.
+constexpr std::array<int, 5> own_components{0, 1, 2, 3, 4};
+
+/// Some nodes of each set of the interface on which pads may act, a node or two being no ring.
+struct LoadedSets {
+  std::vector<std::string> names;
+  std::vector<Index> sizes;         ///< loaded nodes of each
+  std::vector<std::int64_t> nodes;  ///< their numbers in the mesh, set by set
+};
+
+LoadedSets loaded_sets(const scene::Scene& scene, const mesh::Mesh& mesh)
+{
+  constexpr std::size_t fewest = 3, most = 4;
+  LoadedSets sets;
+  for (const mesh::Group& group : mesh.groups) {
+    const bool is_asked =
+        std::ranges::find(scene.interface_nodes, group.name) != scene.interface_nodes.end();
+    if (!is_asked || group.nodes.size() < fewest) continue;
+    const std::size_t n = std::min(most, group.nodes.size());
+    for (std::size_t i = 0; i < n; ++i) {
+      const int node = group.nodes[i * group.nodes.size() / n];
+      sets.nodes.push_back(mesh.node_numbers[static_cast<std::size_t>(node)]);
+    }
+    sets.names.push_back(group.name);
+    sets.sizes.push_back(static_cast<Index>(n));
+  }
+  return sets;
+}
+
+/// The displacements of the loaded DOFs of a model, node by node, each by a force of its own.
+VectorXd loaded_compliances(const SupportedModel& model, const LoadedSets& loaded,
+                            const linear::SolverOptions& solver)
+{
+  std::map<std::int64_t, int> with_number;
+  for (int i = 0; i < model.mesh.n_nodes(); ++i)
+    with_number[model.mesh.node_numbers[static_cast<std::size_t>(i)]] = i;
+  std::vector<PetscInt> dofs;
+  for (const std::int64_t number : loaded.nodes)
+    for (const int c : own_components) {
+      const auto node = with_number.find(number);
+      const auto dof =
+          node != with_number.end() ? model.system.dofs.dof(node->second, c) : std::nullopt;
+      dofs.push_back(dof ? static_cast<PetscInt>(*dof) : -1);
+    }
+  return reduce::own_compliances(
+      model.system.K, reduce::free_dofs(model.system.K, model.held), dofs, solver);
 }
 
 /// Modes of a model as another starts from them.
@@ -185,6 +234,41 @@ MeshErrors mesh_errors(const scene::Scene& scene, const SupportedModel& model,
   else
     find_by_halves(scene, model.mesh, on, found);
   return found;
+}
+
+mbs_export::OwnCompliances mesh_compliances(const scene::Scene& scene,
+                                            const linear::SolverOptions& solver)
+{
+  constexpr int most_by_orders = 10 * most_halved;
+  const SupportedModel model = assemble_supported(scene, mesh_on_all_ranks(scene));
+  const LoadedSets loaded = loaded_sets(scene, model.mesh);
+  const int n_dofs = model.system.dofs.n_dofs(), order = model.mesh.blocks.front().order;
+  const bool by_orders = n_dofs > most_halved;
+  if (loaded.names.empty() || !model.free.empty() || n_dofs > most_by_orders ||
+      (by_orders && !plate::can_rise(model.mesh)))
+    return {};
+  const SupportedModel finer = assemble_supported(
+      scene, plate::refined(model.mesh, {.parts = by_orders ? 1 : 2,
+                                         .order = by_orders ? order + 1 : order})
+                 .mesh);
+  // With elements of one order more nodes are nearer to each other by this power of two.
+  const double halvings = by_orders ? std::log2(1.0 + 1.0 / order) : 1.0;
+  const VectorXd growth =
+      (loaded_compliances(finer, loaded, solver) - loaded_compliances(model, loaded, solver)) /
+      halvings;
+  mbs_export::OwnCompliances own{.sets = loaded.names,
+                                 .growth = MatrixXd::Zero(3, std::ssize(loaded.names))};
+  Index row = 0;
+  for (Index s = 0; s < own.growth.cols(); ++s) {
+    const Index n = loaded.sizes[static_cast<std::size_t>(s)];
+    for (Index i = 0; i < n; ++i, row += std::ssize(own_components)) {
+      const VectorXd of_node = growth.segment(row, std::ssize(own_components)).cwiseAbs();
+      own.growth.col(s) += Eigen::Vector3d{of_node[2], 0.5 * (of_node[0] + of_node[1]),
+                                           0.5 * (of_node[3] + of_node[4])} /
+                           double(n);
+    }
+  }
+  return own;
 }
 
 }  // namespace chladni::cases

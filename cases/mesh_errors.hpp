@@ -6,6 +6,7 @@
 
 #include "cases/fe_solution.hpp"
 #include "linear/solver_options.hpp"
+#include "mbs_export/certificate.hpp"
 #include "reduce/supported_solutions.hpp"
 
 namespace chladni::cases {
@@ -42,5 +43,13 @@ struct MeshErrors {
 /// @note   Collective.
 MeshErrors mesh_errors(const scene::Scene& scene, const SupportedModel& model,
                        const reduce::NaturalModes& modes, const linear::SolverOptions& solver = {});
+
+/// The growth of own compliances at the interface sets of three or more nodes, by elements of half
+/// the size or, for a large model, of one order more. It costs two factors. Empty for a model with
+/// rigid-body motions, and for one that is too large for these.
+/// @param scene  with the supports of the body
+/// @note   Collective.
+mbs_export::OwnCompliances mesh_compliances(const scene::Scene& scene,
+                                            const linear::SolverOptions& solver);
 
 }  // namespace chladni::cases

@@ -12,6 +12,7 @@
 #include "cases/mesh_frequencies.hpp"
 #include "cases/mesh_scene.hpp"
 #include "common/error.hpp"
+#include "common/told_apart.hpp"
 
 namespace chladni::cases {
 namespace {
@@ -102,12 +103,13 @@ class Search {
       if (!much_larger || trial.n_dofs > twice * much_larger->n_dofs) much_larger = trial;
     }
     if (keeps(trial)) return trial;
-    throw Error(
-        fmt::format("{}: accuracy.error = {:.1e} up to {:.6g} Hz: the best mesh that was tried, "
-                    "{}, has an error "
-                    "of {:.1e}; ask for no less, or choose the mesh yourself",
-                    scene_.path, scene_.accuracy->error, scene_.accuracy->up_to_Hz,
-                    described(trial.size), trial.error));
+    const auto [reached, allowed] = told_apart(trial.error, target_);
+    throw Error(fmt::format(
+        "{}: accuracy.error = {:.6g} up to {:.6g} Hz: the mesh may have {} of it, and the best one "
+        "that was tried, {}, has an error of {}; ask for {:.2g} or more, or choose the mesh "
+        "yourself",
+        scene_.path, scene_.accuracy->error, scene_.accuracy->up_to_Hz, allowed,
+        described(trial.size), reached, possible_error(trial.error)));
   }
 
  private:
@@ -266,6 +268,13 @@ class Search {
 };
 
 }  // namespace
+
+double possible_error(double error_of_mesh)
+{
+  const double least = error_of_mesh / share_of_mesh;
+  const double last_digit = std::pow(10.0, std::floor(std::log10(least)) - 1.0);
+  return std::ceil(least / last_digit) * last_digit;
+}
 
 FoundMesh search_mesh(const scene::Scene& scene, const linear::SolverOptions& solver)
 {

@@ -10,6 +10,9 @@ namespace chladni::cases {
 /// The share of an accuracy that the mesh may use; the rest is for the reduction.
 constexpr double share_of_mesh = 0.9;
 
+/// The least accuracy, of two digits, that a mesh with this error keeps.
+double possible_error(double error_of_mesh);
+
 /// A mesh that keeps the accuracy of a scene.
 struct FoundMesh {
   MeshSize size;

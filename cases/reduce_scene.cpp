@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "cases/chosen_mesh.hpp"
 #include "cases/described_system.hpp"
@@ -241,12 +242,19 @@ ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solve
   }
   Phases phases(progress);
   const MeshChoice choice = chosen_mesh(scene, supports_of(scene), solvers.options, phases);
+  mbs_export::OwnCompliances compliances;
+  if (choice.errors && scene.squeal) {
+    scene::Scene supported = choice.scene;
+    supported.supports = supports_of(scene);
+    compliances = mesh_compliances(supported, solvers.options);
+  }
   ReduceSummary summary = reduce_meshed(choice.scene, solvers, phases);
   if (choice.errors) {
     mbs_export::Certificate& certificate = summary.reduced.certificate;
     const Eigen::Index n = std::min(certificate.frequencies.size(), choice.errors->errors.size());
     certificate.mesh_errors = choice.errors->errors.head(n);
     certificate.mesh_shape_errors = choice.errors->shape_errors.leftCols(n);
+    if (n > 0) certificate.mesh_compliances = std::move(compliances);
   }
   return summary;
 }

@@ -24,6 +24,15 @@ struct ResponseCheck {
   std::vector<std::string> loads;  ///< "track.z" for all nodes of a set
 };
 
+/// How much the displacement of a node by a force at this node alone grows when all elements are
+/// halved, means of some nodes of each set. A force at a point of a shear-flexible shell, or a
+/// moment, has no finite displacement: it grows by about the same for each halving.
+struct OwnCompliances {
+  std::vector<std::string> sets;  ///< of attachment nodes
+  /// [3 x n_sets] along the z axis and across it, m/N; of rotations across it, rad/(N m)
+  Eigen::MatrixXd growth;
+};
+
 /// The accuracy of a reduced system, found at the time of the reduction, when the FE model is at
 /// hand. Empty if it was not determined.
 struct Certificate {
@@ -51,6 +60,7 @@ struct Certificate {
   Eigen::MatrixXd mesh_shape_errors{};
   /// [<= k] estimated relative errors of `frequencies` by the mesh
   Eigen::VectorXd mesh_errors{};
+  OwnCompliances mesh_compliances = {};  ///< with `mesh_errors`; empty if unknown
 };
 
 /// The estimated relative error of each frequency that is shown to users: `estimates`, or half of

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/told_apart.hpp"
 #include "reduce/mode_search.hpp"
 
 namespace chladni::reduce {
@@ -47,10 +48,12 @@ FixedInterfaceModes modes_below(ModeSearch& search, const ReduceOptions& wanted)
   const auto n_there = static_cast<PetscInt>(omega.size());
   const PetscInt n = std::max(n_below, std::min<PetscInt>(wanted.at_least, n_there));
   if (n > 0) return search.leading(search.complete_cluster(n));
-  throw Error(fmt::format(
-      "fixed_interface_modes: no mode below {:.6g} Hz (the first is at {:.6g} Hz); raise "
-      "cutoff_Hz or use Guyan",
-      omega_cutoff / (2.0 * std::numbers::pi), omega.front() / (2.0 * std::numbers::pi)));
+  const auto [first_Hz, cutoff_Hz] = told_apart(omega.front() / (2.0 * std::numbers::pi),
+                                                omega_cutoff / (2.0 * std::numbers::pi), 6);
+  throw Error(
+      fmt::format("fixed_interface_modes: no mode below {} Hz (the first is at {} Hz); raise "
+                  "cutoff_Hz or use Guyan",
+                  cutoff_Hz, first_Hz));
 }
 
 }  // namespace

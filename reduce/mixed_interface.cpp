@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/told_apart.hpp"
 #include "linear/kernels/orthonormalisation.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
@@ -92,10 +93,12 @@ ElasticPairs elastic_pairs(const WholeSystem& body, const Flexibility& flexibili
     }
     const bool is_nothing = n_taken == 0 && linear::LocalRows(flexibility.R()).n_cols() == 0;
     if (is_nothing && !pairs.lambda.empty() && wanted.cutoff_Hz && !wanted.may_have_none) {
-      throw Error(fmt::format(
-          "mixed_interface_modes: no elastic mode below {:.6g} Hz (the first is at {:.6g} Hz); "
-          "raise cutoff_Hz or use Guyan",
-          *wanted.cutoff_Hz, std::sqrt(pairs.lambda.front()) / (2.0 * std::numbers::pi)));
+      const auto [first_Hz, cutoff_Hz] = told_apart(
+          std::sqrt(pairs.lambda.front()) / (2.0 * std::numbers::pi), *wanted.cutoff_Hz, 6);
+      throw Error(
+          fmt::format("mixed_interface_modes: no elastic mode below {} Hz (the first is at {} Hz); "
+                      "raise cutoff_Hz or use Guyan",
+                      cutoff_Hz, first_Hz));
     }
     const PetscInt n_complete = complete_cluster(pairs.lambda, n_taken);
     // The cluster of the last one may go on.

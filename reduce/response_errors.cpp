@@ -9,6 +9,7 @@
 
 #include "common/all_ranks.hpp"
 #include "common/eigen_every.hpp"
+#include "common/told_apart.hpp"
 #include "linear/dense/decoupled_coordinates.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "linear/kernels/small_matrices.hpp"
@@ -122,10 +123,12 @@ void require_modes_of_range(double Omega, double lambda_left_out)
 {
   if (Omega * Omega < lambda_left_out) return;
   constexpr double two_pi = 2.0 * std::numbers::pi;
+  const auto [left_out_Hz, up_to_Hz] =
+      told_apart(std::sqrt(lambda_left_out) / two_pi, Omega / two_pi, 6);
   throw Error(fmt::format(
-      "responses up to {:.6g} Hz need the modes of that range, and the first one left out is at "
-      "{:.6g} Hz; take more modes, or a tolerance with its range in [reduce]",
-      Omega / two_pi, std::sqrt(lambda_left_out) / two_pi));
+      "responses up to {} Hz need the modes of that range, and the first one left out is at {} Hz; "
+      "take more modes, or a tolerance with its range in [reduce]",
+      up_to_Hz, left_out_Hz));
 }
 
 /// Where a model is furthest from the goal.

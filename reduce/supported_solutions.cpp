@@ -185,6 +185,27 @@ petsc::Matrix static_solutions(Mat K, Mat F, const FreeDofs& free,
   return of_all_dofs(U_f, free, K, n);
 }
 
+Eigen::VectorXd own_compliances(Mat K, const FreeDofs& free, const std::vector<PetscInt>& loaded,
+                                const linear::SolverOptions& options)
+{
+  const petsc::Matrix K_ff = free_block(K, free);
+  const linear::Factorization factor = linear::factorize(K_ff, options);
+  const std::vector<PetscInt> own = petsc::own_indices(free.indices);
+  const petsc::Matrix F = linear::uninitialized_dense(K_ff, std::ssize(loaded)),
+                      U = linear::uninitialized_dense(K_ff, std::ssize(loaded));
+  petsc::check(MatZeroEntries(F));
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArray(F, &values));
+  for (std::size_t j = 0; j < loaded.size(); ++j) {
+    const auto at = std::ranges::lower_bound(own, loaded[j]);
+    if (at != own.end() && *at == loaded[j])
+      values[j * own.size() + static_cast<std::size_t>(at - own.begin())] = 1.0;
+  }
+  petsc::check(MatDenseRestoreArray(F, &values));
+  petsc::check(MatMatSolve(factor.factor(), F, U));
+  return linear::inner_product(F, U).diagonal();
+}
+
 NaturalModes natural_modes(Mat K, Mat M, const FreeDofs& free, const NaturalModesOptions& options)
 {
   const petsc::Matrix K_ff = free_block(K, free);

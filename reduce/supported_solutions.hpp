@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "common/petsc.hpp"
@@ -41,6 +42,13 @@ StaticSolution static_solution(Mat K, Vec f, const FreeDofs& free,
 /// @throws linear::FreeMotion when K of the free DOFs is not positive definite.
 petsc::Matrix static_solutions(Mat K, Mat F, const FreeDofs& free,
                                const linear::SolverOptions& options = {});
+
+/// The displacement of each DOF by a unit force of its own, u = 0 at the held DOFs.
+/// @param loaded  global DOFs, the same on all ranks; 0 is returned for those that are held or < 0
+/// @note   Collective on the communicator of `K`.
+/// @throws linear::FreeMotion when K of the free DOFs is not positive definite.
+Eigen::VectorXd own_compliances(Mat K, const FreeDofs& free, const std::vector<PetscInt>& loaded,
+                                const linear::SolverOptions& options = {});
 
 /// Natural modes K x = lambda M x on the free DOFs, X^T M X = I.
 struct NaturalModes {

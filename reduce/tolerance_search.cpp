@@ -1,5 +1,7 @@
 #include "reduce/tolerance_search.hpp"
 
+#include "common/told_apart.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -55,10 +57,11 @@ void ToleranceSearch::find_modes()
         n));
   }
   if (model_ && n <= model_->n_modes()) {
+    const auto [reached, asked] = told_apart(error(n), goal_.tolerance);
     throw Error(
-        fmt::format("with all {} fixed-interface modes that there are the estimated error is "
-                    "{:.1e}, above the tolerance {:.1e}; raise the tolerance",
-                    n, error(n), goal_.tolerance));
+        fmt::format("with all {} fixed-interface modes that there are the estimated error is {}, "
+                    "above the tolerance {}; raise the tolerance",
+                    n, reached, asked));
   }
   if (model_ && !begins_with(omega, model_->omega())) model_.reset();
   if (!model_) model_.emplace(system_);

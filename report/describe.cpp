@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/error.hpp"
+#include "common/told_apart.hpp"
 #include "files/hdf5.hpp"
 #include "mbs_export/files/body_file.hpp"
 #include "mbs_export/files/reduced_file.hpp"
@@ -194,13 +195,14 @@ std::string describe_selection(const mbs_export::ModalBody& body)
   const Steps& steps = n_interface > 0 ? selection.with_interface_modes : selection.modes_only;
   const double of_body = steps.empty() ? 0.0 : steps.back().error;
   const double error = of_body + selection.of_reduction.value_or(0.0);
+  const auto [reached, tolerance] = told_apart(error, selection.error, 3);
   return fmt::format(
-      "selection for loads at {} up to {:.6g} Hz, tolerance {:.3g}\n\n{}\n{}: {} modes and {} "
-      "interface modes, error {:.2e} beside the {}\n",
-      fmt::join(selection.loads, ", "), selection.Omega_max / (2.0 * pi), selection.error,
+      "selection for loads at {} up to {:.6g} Hz, tolerance {}\n\n{}\n{}: {} modes and {} "
+      "interface modes, error {} beside the {}\n",
+      fmt::join(selection.loads, ", "), selection.Omega_max / (2.0 * pi), tolerance,
       format_table(selection_table(selection)),
       error <= selection.error ? "chosen" : "the tolerance cannot be reached; the best is",
-      body.n_modes() - n_interface, n_interface, error,
+      body.n_modes() - n_interface, n_interface, reached,
       selection.of_reduction
           ? fmt::format("FE model, of which {:.2e} of the reduction", *selection.of_reduction)
           : "reduced system");

@@ -103,6 +103,15 @@ std::optional<squeal::PadGrid> read_grid(const Table& pad, RingsOf of)
   return grid;
 }
 
+/// The radius of a round face.
+std::optional<double> read_patch(const Table& pad)
+{
+  if (!pad.has("radius")) return std::nullopt;
+  if (pad.has("grid"))
+    pad.refuse("radius", "is that of a round face, and `grid` gives the points of another one");
+  return pad.number("radius");
+}
+
 /// Most pad pairs of a brake, and contact points of all pads: far more than a brake has.
 constexpr std::size_t pads_max = 1000, contacts_max = 10000;
 
@@ -131,7 +140,8 @@ squeal::PadPair read_pad(const Table& pad, RingsOf of)
           .caliper = read_caliper(pad, body),
           .shim = read_shim(pad, body),
           .friction = pad.has("friction") ? std::optional(read_friction(pad)) : std::nullopt,
-          .area = pad.has("area") ? std::optional(pad.number("area")) : std::nullopt};
+          .area = pad.has("area") ? std::optional(pad.number("area")) : std::nullopt,
+          .radius = read_patch(pad)};
 }
 
 }  // namespace

@@ -71,6 +71,8 @@ struct PadPair {
   std::optional<Shim> shim = {};
   std::optional<FrictionLaw> friction = {};  ///< absent: the friction of the brake
   std::optional<double> area = {};           ///< area of each pad's face for its pressure, m^2
+  /// Radius of the round patch of each pad's face, m; absent: a point. Not with a grid.
+  std::optional<double> radius = {};
 };
 
 }  // namespace chladni::squeal

@@ -58,6 +58,7 @@ inline constexpr std::array parameters = {
     ParameterRow{"pads.friction.temperature_C", "degrees Celsius", true},
     ParameterRow{"pads.friction.factor", "1", true},
     ParameterRow{"pads.area", "m^2"},
+    ParameterRow{"pads.radius", "m"},
     ParameterRow{"pads.shim.stiffness", "N/m"},
     ParameterRow{"pads.shim.loss_factor", "1", true},
     ParameterRow{"pads.shim.frequency_Hz", "Hz"},

@@ -81,7 +81,7 @@ def eigenvalues(programs, folder, text):
 
 def band(values):
     end = 2 * np.pi * UP_TO_HZ
-    return values[(values.imag > 0) & (values.imag <= end) & (abs(values.real) < end / 2)]
+    return values[(values.imag > 0) & (values.imag <= end)]
 
 
 def errors(exact, found):

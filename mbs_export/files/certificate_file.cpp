@@ -71,6 +71,10 @@ void write_certificate(files::Writer& file, const Certificate& certificate)
     file.write("certificate/mesh_errors", certificate.mesh_errors, "1");
     file.write("certificate/mesh_shape_errors", certificate.mesh_shape_errors, "1");
   }
+  if (const OwnCompliances& own = certificate.mesh_compliances; !own.sets.empty()) {
+    file.write("certificate/mesh_compliances/sets", own.sets);
+    file.write("certificate/mesh_compliances/growth", own.growth, "m/N or rad/(N m)");
+  }
   file.write("certificate/rigid_modes", std::int64_t{certificate.n_rigid}, "1");
   file.write("certificate/rigid_residual", certificate.rigid_residual, "1");
   if (certificate.condition > 0.0)
@@ -101,6 +105,11 @@ Certificate read_certificate(const files::Reader& file)
     check_length(file, "certificate/mesh_errors", certificate.mesh_errors, certificate);
     certificate.mesh_shape_errors =
         file.matrix("certificate/mesh_shape_errors", {6, certificate.mesh_errors.size()});
+  }
+  if (file.contains("certificate/mesh_compliances")) {
+    OwnCompliances& own = certificate.mesh_compliances;
+    own.sets = file.texts("certificate/mesh_compliances/sets");
+    own.growth = file.matrix("certificate/mesh_compliances/growth", {3, std::ssize(own.sets)});
   }
   if (file.contains("certificate/rigid_modes")) {
     certificate.n_rigid = file_parts::read_count(file, "certificate/rigid_modes");

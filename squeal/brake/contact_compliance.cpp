@@ -21,11 +21,14 @@ Eigen::MatrixXd point_compliance(const RingCompliance& rings, const PadSystem& p
   };
   for (Eigen::Index i = 0; i < n; i += per_ring)
     for (Eigen::Index j = 0; j < n; j += per_ring) {
-      const double turn = pads.points[static_cast<std::size_t>(i / m)].angle -
-                          pads.points[static_cast<std::size_t>(j / m)].angle;
+      const PointPair &at = pads.points[static_cast<std::size_t>(i / m)],
+                      &of = pads.points[static_cast<std::size_t>(j / m)];
       for (std::size_t d = 0; d < rings.C.size(); ++d) {
+        const int n_d = static_cast<int>(d);
+        const double means = mean_over_patch(n_d, at.patch) * mean_over_patch(n_d, of.patch);
         G.block(i, j, per_ring, per_ring) +=
-            (std::polar(1.0, double(d) * turn) *
+            means *
+            (std::polar(1.0, n_d * (at.angle - of.angle)) *
              rings.C[d].block(per_ring * ring_of(i), per_ring * ring_of(j), per_ring, per_ring))
                 .real();
       }

@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "mbs_export/mass_integrals.hpp"
 #include "squeal/brake/contact_compliance.hpp"
+#include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/mode_parts.hpp"
 #include "squeal/brake/rotation_generator.hpp"
 
@@ -58,13 +59,39 @@ Eigen::MatrixXd shape_errors_of(const ModalBody& body)
   return errors;
 }
 
-ModeErrors mode_errors(const ModalBody& body)
+/// Whether a static force at a ring displaces it as it does the reduced system: by modes for
+/// responses, or by all modes.
+bool has_static_compliance(const ModalBody& body)
+{
+  using mbs_export::ModeKind;
+  return std::ranges::count(body.kinds, ModeKind::interface) > 0 ||
+         std::ranges::count(body.kinds, ModeKind::constrained) >=
+             body.preparation.n_constrained_modes;
+}
+
+/// [3 x n_rings]
+Eigen::MatrixXd mesh_compliances_of(const ModalBody& body, const std::vector<DiscRing>& rings)
+{
+  const mbs_export::OwnCompliances& own = body.certificate.mesh_compliances;
+  if (!has_static_compliance(body) || body.certificate.fixed != body.fixed) return {};
+  Eigen::MatrixXd growth(3, std::ssize(rings));
+  for (Eigen::Index i = 0; i < growth.cols(); ++i) {
+    const auto at = std::ranges::find(own.sets, rings[static_cast<std::size_t>(i)].name);
+    if (at == own.sets.end()) return {};
+    growth.col(i) = own.growth.col(at - own.sets.begin());
+  }
+  return growth;
+}
+
+ModeErrors mode_errors(const ModalBody& body, const std::vector<DiscRing>& rings)
 {
   const Eigen::VectorXd& certified = body.certificate.frequencies;
   ModeErrors errors{.mesh = errors_of(body, body.certificate.mesh_errors),
                     .mesh_shapes = shape_errors_of(body),
                     .reduction = errors_of(body, mbs_export::estimated_errors(body.certificate)),
                     .responses = {},
+                    .mesh_compliances = mesh_compliances_of(body, rings),
+                    .n_harmonics = std::ssize(ring_harmonics(rings).c),
                     .range = certified.size() > 0 ? certified[certified.size() - 1] : 0.0};
   if (body.selection && !body.selection->with_interface_modes.empty()) {
     const mbs_export::SelectionTable& table = *body.selection;
@@ -89,7 +116,7 @@ Disc disc_of_all_modes(const ModalBody& body, const RingChoice& choice)
           .omega = body.omega,
           .C = C,
           .G = coriolis_of(body),
-          .errors = mode_errors(body)};
+          .errors = mode_errors(body, rings)};
 }
 
 Harmonics columns(const Harmonics& f, const std::vector<int>& modes)
@@ -130,7 +157,38 @@ Disc with_modes(const Disc& all, const std::vector<int>& modes)
                      .mesh_shapes = columns_of(all.errors.mesh_shapes, modes),
                      .reduction = part(all.errors.reduction, modes),
                      .responses = all.errors.responses,
+                     .mesh_compliances = all.errors.mesh_compliances,
+                     .n_harmonics = all.errors.n_harmonics,
                      .range = all.errors.range}};
+}
+
+/// Beyond the certified frequencies, or half of the highest one, modes that lack a partner follow
+/// the pads without inertia: a reduction has there what its shapes make of others. Nothing is done
+/// where modes below lack one too: such a disc is not axisymmetric.
+void let_unpaired_follow(const Disc& all, ModeParts& parts)
+{
+  const double end = all.errors.range > 0.0 ? all.errors.range : 0.5 * all.omega.maxCoeff();
+  std::vector<int> paired = parts.dynamic, alone;
+  for (;;) {
+    if (paired.empty() || all.omega[paired.back()] <= end) return;
+    const Eigen::VectorXd shares = unpaired_shares(with_modes(all, paired));
+    std::vector<int> kept;
+    for (Eigen::Index k = 0; k < shares.size(); ++k) {
+      const int mode = paired[static_cast<std::size_t>(k)];
+      if (shares[k] < without_partner)
+        kept.push_back(mode);
+      else if (all.omega[mode] > end)
+        alone.push_back(mode);
+      else
+        return;
+    }
+    if (kept.size() == paired.size()) break;
+    paired = std::move(kept);
+  }
+  parts.dynamic = std::move(paired);
+  parts.quasi_static.insert(parts.quasi_static.end(), alone.begin(), alone.end());
+  std::ranges::sort(parts.quasi_static);
+  parts.alone = std::move(alone);
 }
 
 }  // namespace
@@ -157,9 +215,15 @@ std::vector<std::string> notes_of(const Disc& disc)
   std::vector<std::string> notes;
   if (!disc.compliance.empty()) {
     notes.push_back(fmt::format(
-        "{} of the body's modes, from {:.5g} Hz on, follow the pads without inertia "
-        "(quasi_static_above_Hz)",
-        disc.compliance.mode_numbers.size(), disc.compliance.lowest_omega / (2.0 * pi)));
+        "{} of the body's modes, from {:.5g} Hz on, follow the pads without inertia{}",
+        disc.compliance.mode_numbers.size(), disc.compliance.lowest_omega / (2.0 * pi),
+        disc.compliance.mode_numbers.size() > disc.alone.size() ? " (quasi_static_above_Hz)" : ""));
+  }
+  if (!disc.alone.empty()) {
+    notes.push_back(fmt::format(
+        "{} of these lack the partner that a disc has for each mode with nodal diameters: {}; "
+        "the reduction has them beyond its range",
+        disc.alone.size(), fmt::join(disc.alone, ", ")));
   }
   if (!disc.still.empty()) {
     notes.push_back(fmt::format(
@@ -212,13 +276,17 @@ Disc make_disc(const ModalBody& body, const RingChoice& rings, const ModeChoice&
                     "bending modes",
                     fmt::join(rings.names, "', '"), rings.in_plane ? "" : " along the axis"));
   }
-  const ModeParts parts = mode_parts(all, body, choice);
+  ModeParts parts = mode_parts(all, body, choice);
+  const bool has_choice = choice.list || choice.nodal_diameters;
+  if (!has_choice) let_unpaired_follow(all, parts);
   Disc disc = with_modes(all, parts.dynamic);
+  if (has_choice) disc.errors.mesh_compliances = {};  // of what is left out
   disc.range = range_of(body);
   if (!parts.quasi_static.empty())
     disc.compliance = ring_compliance(with_modes(all, parts.quasi_static));
   disc.still = parts.still;
   disc.alternating = parts.alternating;
+  for (const int i : parts.alone) disc.alone.push_back(i + 1);
   const std::vector<ModeFigure> figures = mode_figures(body, nodal_diameters(all));
   for (const int i : parts.dynamic) disc.figures.push_back(figures[static_cast<std::size_t>(i)]);
   return disc;

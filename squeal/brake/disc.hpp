@@ -34,6 +34,9 @@ struct ModeErrors {
   Eigen::MatrixXd mesh_shapes = {};
   Eigen::VectorXd reduction = {};  ///< [n_modes] error of omega by the reduction; empty if unknown
   std::optional<double> responses = {};  ///< error of the body's responses by missing modes
+  /// [3 x n_rings] OwnCompliances::growth of the rings; empty if unknown
+  Eigen::MatrixXd mesh_compliances = {};
+  Eigen::Index n_harmonics = 0;  ///< of the rings, cosine and sine known
   /// Angular frequency of the last mode with known errors, rad/s; modes beyond it have zeros.
   double range = 0.0;
 };
@@ -58,6 +61,9 @@ struct Disc {
   /// 1-based numbers of modes left out because their sign changes from node to node of the rings,
   /// which show one of the two modes of such a pair only.
   std::vector<int> alternating = {};
+  /// 1-based numbers of modes beyond the range that follow the pads without inertia because they
+  /// lack a partner.
+  std::vector<int> alone = {};
   ModeErrors errors = {};
   std::vector<ModeFigure> figures = {};  ///< [n_modes]; empty if unknown
   bool keeps_asymmetry = false;          ///< see SquealOptions
@@ -71,8 +77,9 @@ struct Disc {
 /// above `ModeChoice::quasi_static_above` contribute their compliance only; if that is absent, this
 /// holds beyond the body's range for interface modes, and for the modes beyond the certificate of a
 /// reduction that was made for responses. Such modes represent the static response of all modes
-/// beyond the range, at frequencies that the disc does not have. Other modes keep their inertia,
-/// and a mode of unknown kind counts as one of the disc.
+/// beyond the range, at frequencies that the disc does not have. The same holds for modes beyond the
+/// certified frequencies (where there are none, beyond half of the highest one) that lack a partner.
+/// Other modes keep their inertia, and a mode of unknown kind counts as one of the disc.
 /// @throws chladni::Error for an unknown ring, two rings with one name, a mode number that is out
 ///         of range or repeated, a number of nodal diameters without a pair of modes, rigid-body
 ///         modes (the body is not held), and modes that do not move the ring.

@@ -237,6 +237,13 @@ DiscRing disc_ring(const ModalBody& body, const std::string& name, const RingCho
   return result;
 }
 
+double mean_over_patch(int d, double patch)
+{
+  const double x = d * patch;
+  constexpr double small = 1e-4;  // the next term of 1 - x^2 / 8 + x^4 / 192 is rounding
+  return x < small ? 1.0 - x * x / 8.0 : 2.0 * std::cyl_bessel_j(1.0, x) / x;
+}
+
 Shapes shapes_at(const DiscRing& ring, double theta)
 {
   const Eigen::Index n_orders = ring.W.cosine.rows();

@@ -96,6 +96,11 @@ struct RingChoice {
 DiscRing disc_ring(const mbs_export::ModalBody& body, const std::string& name,
                    const RingChoice& choice);
 
+/// Mean of cos(d theta) over a round patch about theta = 0, by even pressure.
+/// @param patch  its radius over that of the ring
+/// @return 2 J_1(d patch) / (d patch)
+double mean_over_patch(int d, double patch);
+
 /// Mode shapes at the angle `theta` (rad) of a ring; exact for harmonics below half the number of
 /// nodes.
 Shapes shapes_at(const DiscRing& ring, double theta);

@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "common/error.hpp"
+#include "common/told_apart.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "squeal/brake/pair_damping.hpp"
 #include "squeal/brake/rotation_generator.hpp"
@@ -23,6 +24,13 @@ using std::numbers::pi;
 struct Complaint {
   std::string text;  ///< why a disc has no inertial frame, in words for the user
 };
+
+/// "the frequencies of a pair differ by 0.021 (allowed: 0.01)"
+Complaint beyond(const char* what, double value, double limit)
+{
+  const auto [found, allowed] = told_apart(value, limit);
+  return {fmt::format("{} {} (allowed: {})", what, found, allowed)};
+}
 
 /// The part of the motion of the rings, mode by mode and squared, that no harmonic space has.
 Eigen::VectorXd unmatched(const RingHarmonics& harmonics, const std::vector<HarmonicSpace>& spaces)
@@ -37,12 +45,10 @@ Eigen::VectorXd unmatched(const RingHarmonics& harmonics, const std::vector<Harm
   return rest;
 }
 
-/// A mode that has no partner loses nearly all of its motion, one among asymmetric ones some of it.
-std::optional<Complaint> mode_without_partner(const Disc& disc, const Eigen::VectorXd& rest,
-                                              const Eigen::VectorXd& whole)
+std::optional<Complaint> mode_without_partner(const Disc& disc, const Eigen::VectorXd& unpaired)
 {
   Eigen::Index i = 0;
-  if (rest.cwiseQuotient(whole).maxCoeff(&i) < 0.5) return std::nullopt;
+  if (unpaired.maxCoeff(&i) < without_partner) return std::nullopt;
   const int n = nodal_diameters(disc)[static_cast<std::size_t>(i)];
   return Complaint{
       fmt::format("mode {} ({:.1f} Hz) has {} nodal diameters, but no partner among the modes used",
@@ -113,6 +119,8 @@ InertialDisc empty_inertial_disc(const Disc& disc)
                      .mesh_shapes = disc.errors.mesh_shapes,
                      .reduction = disc.errors.reduction,
                      .responses = disc.errors.responses,
+                     .mesh_compliances = disc.errors.mesh_compliances,
+                     .n_harmonics = disc.errors.n_harmonics,
                      .range = disc.errors.range}};
 }
 
@@ -191,9 +199,8 @@ std::variant<InertialDisc, Complaint> with_damping(InertialDisc inertial, const 
   }
   const double deviation = (C - inertial.C).norm();
   if (deviation > impurity_limit * C.norm())
-    return Complaint{
-        fmt::format("its damping changes around the circumference by {:.2g} (allowed: {})",
-                    deviation / C.norm(), impurity_limit)};
+    return beyond("its damping changes around the circumference by", deviation / C.norm(),
+                  impurity_limit);
   return inertial;
 }
 
@@ -201,9 +208,9 @@ std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
 {
   const RingHarmonics harmonics = ring_harmonics(disc.rings);
   const auto spaces = harmonic_spaces(rotation_generator(harmonics, disc.omega));
-  if (auto complaint =
-          mode_without_partner(disc, unmatched(harmonics, spaces), harmonics.squares()))
-    return *complaint;
+  const Eigen::VectorXd unpaired =
+      unmatched(harmonics, spaces).cwiseQuotient(harmonics.squares());
+  if (auto complaint = mode_without_partner(disc, unpaired)) return *complaint;
   InertialDisc inertial = empty_inertial_disc(disc);
   Eigen::Index at = 0;
   for (const PureModes& mode : pure_modes(disc, spaces)) {
@@ -221,18 +228,21 @@ std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
   }
   inertial.largest_split = largest_split(disc, spaces);
   if (!(inertial.largest_impurity < impurity_limit))
-    return Complaint{
-        fmt::format("its mode shapes on the ring differ from pure harmonics by {:.2g} "
-                    "(allowed: {})",
-                    inertial.largest_impurity, impurity_limit)};
-  if (!(inertial.largest_split < split_limit)) {
-    return Complaint{fmt::format("the frequencies of a pair differ by {:.2g} (allowed: {})",
-                                 inertial.largest_split, split_limit)};
-  }
+    return beyond("its mode shapes on the ring differ from pure harmonics by",
+                  inertial.largest_impurity, impurity_limit);
+  if (!(inertial.largest_split < split_limit))
+    return beyond("the frequencies of a pair differ by", inertial.largest_split, split_limit);
   return with_damping(std::move(inertial), disc);
 }
 
 }  // namespace
+
+Eigen::VectorXd unpaired_shares(const Disc& disc)
+{
+  const RingHarmonics harmonics = ring_harmonics(disc.rings);
+  const auto spaces = harmonic_spaces(rotation_generator(harmonics, disc.omega));
+  return unmatched(harmonics, spaces).cwiseQuotient(harmonics.squares());
+}
 
 InertialDisc inertial_disc(const Disc& disc)
 {

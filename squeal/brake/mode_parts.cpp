@@ -23,8 +23,9 @@ using std::numbers::pi;
 /// Below this angular frequency (0.1 Hz) a mode counts as a rigid-body motion, rad/s.
 constexpr double rigid_limit = 0.2 * pi;
 
-/// Ring motion below this part of the largest one, a 4e-6th of its kinetic energy, is that of a
-/// mode in the plane of the disc: rounding of the FE model, or what a hat or vanes make of torsion.
+/// Ring motion below this part of the largest one that a pad feels at the frequency of the mode, a
+/// 4e-6th of its kinetic energy, is that of a mode in the plane of the disc: rounding of the FE
+/// model, or what a hat or vanes make of torsion.
 constexpr double still_limit = 2e-3;
 
 /// Squared amplitude of each harmonic of each mode on all rings, slopes multiplied by the radius.
@@ -53,17 +54,30 @@ struct Motions {
   std::vector<int> still;
 };
 
+/// Of each mode the largest squared motion of the rings that a pad feels at its frequency, or at the
+/// end of the range where that is higher. To a pad a mode far above is a spring of the compliance
+/// W^2 / omega^2: what a reduction has there, of little mass and large motion, counts by that.
+Eigen::VectorXd felt_motion(const Disc& disc, const Eigen::VectorXd& motion)
+{
+  const double lowest = std::max(disc.errors.range, rigid_limit);
+  const Eigen::ArrayXd lambda = disc.omega.cwiseMax(lowest).cwiseAbs2();
+  Eigen::VectorXd felt(disc.n_modes());
+  for (Eigen::Index i = 0; i < felt.size(); ++i)
+    felt[i] = (motion.array() * (lambda[i] / lambda).min(1.0)).maxCoeff();
+  return felt;
+}
+
 /// A ring of other nodes may show both modes of a pair.
 Motions motions_of(const Disc& disc)
 {
   const Eigen::VectorXd all = ring_motion(disc).colwise().sum().transpose();
-  const double limit = still_limit * still_limit * all.maxCoeff();
+  const Eigen::VectorXd limit = still_limit * still_limit * felt_motion(disc, all);
   std::vector<char> alternates(std::size_t(disc.n_modes()), 0), moves(alternates);
   for (const DiscRing& ring : disc.rings) {
     const Eigen::VectorXd alternating = alternating_motion(ring, disc.n_modes()),
                           whole = ring_harmonics({ring}).squares();
     for (Eigen::Index i = 0; i < disc.n_modes(); ++i) {
-      if (std::max(whole[i], alternating[i]) <= limit) continue;
+      if (std::max(whole[i], alternating[i]) <= limit[i]) continue;
       (alternating[i] > whole[i] ? alternates : moves)[std::size_t(i)] = 1;
     }
   }
@@ -71,8 +85,8 @@ Motions motions_of(const Disc& disc)
   for (int i = 0; i < disc.n_modes(); ++i) {
     const bool is_alternating = alternates[std::size_t(i)] != 0 && moves[std::size_t(i)] == 0;
     (is_alternating   ? motions.alternating
-     : all[i] > limit ? motions.moving
-                      : motions.still)
+     : all[i] > limit[i] ? motions.moving
+                         : motions.still)
         .push_back(i);
   }
   return motions;

@@ -12,6 +12,7 @@ namespace chladni::squeal {
 struct ModeParts {
   std::vector<int> dynamic;       ///< 0-based, with stiffness and inertia
   std::vector<int> quasi_static;  ///< 0-based, with their compliance only
+  std::vector<int> alone = {};    ///< 0-based, of the quasi-static ones those without a partner
   std::vector<int> still;         ///< 1-based, left out because they do not move the pads
   /// 1-based, left out because they move the rings with harmonic n / 2 of their n nodes
   std::vector<int> alternating;

@@ -87,6 +87,7 @@ void add_points(PadSystem& system, const SquealOptions& options, std::size_t i,
       const double turn = grid.sector * ((k + 0.5) / grid.points - 0.5);
       system.points.push_back({.pad = i,
                                .angle = pad.angle + turn,
+                               .patch = pad.radius.value_or(0.0) / rings[pair.rings[0]].radius,
                                .rings = pair.rings,
                                .contact = part_of(pad_contact(options, pad, pair.faces), n),
                                .upper = {},

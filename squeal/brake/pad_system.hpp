@@ -16,6 +16,8 @@ namespace chladni::squeal {
 struct PointPair {
   std::size_t pad;  ///< index of its pad in the scene
   double angle;     ///< angle in the inertial frame, rad
+  /// Radius of the patch that the point stands for over that of its ring; 0: a point.
+  double patch = 0.0;
   /// Indices of the disc's rings, below the upper pad and above the lower pad.
   std::array<std::size_t, 2> rings;
   PadContact contact;

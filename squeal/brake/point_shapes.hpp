@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <vector>
 
 #include "squeal/brake/disc.hpp"
@@ -9,7 +10,8 @@
 
 namespace chladni::squeal {
 
-/// Mode shapes of a rotating disc at the point pairs of its pads.
+/// Mode shapes of a rotating disc at the point pairs of its pads. Those of a patch are means over
+/// it, as if the shapes were the same along the radius.
 class PointShapes {
  public:
   explicit PointShapes(const Disc& disc);
@@ -19,7 +21,10 @@ class PointShapes {
   const Eigen::MatrixXd& at(const PointPair& point, double angle);
 
  private:
-  std::vector<RingShapes> rings_;
+  std::vector<RingShapes>& with_patch(double patch);
+
+  std::vector<DiscRing> disc_rings_;
+  std::map<double, std::vector<RingShapes>> rings_;  ///< by the patch
   Eigen::MatrixXd both_;  ///< shapes of two rings side by side
 };
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/error.hpp"
+#include "common/told_apart.hpp"
 #include "mbs_export/condensed_body.hpp"
 #include "squeal/assembly/assembly.hpp"
 #include "squeal/condensation/condensation_error.hpp"
@@ -87,10 +88,11 @@ class Condensing {
     choice.n = choice.shapes.size();
     choice.error = error_of(choice.shapes);
     if (!(choice.error.eigenvalues <= wanted_.tolerance)) {
+      const auto [reached, asked] = told_apart(choice.error.eigenvalues, wanted_.tolerance);
       throw Error(fmt::format(
-          "all shapes of the brake's vibrations up to {:.6g} Hz leave an error of {:.2g} where "
-          "{:.2g} is asked; take a wider band, or a larger tolerance{}",
-          end_Hz(), choice.error.eigenvalues, wanted_.tolerance,
+          "all shapes of the brake's vibrations up to {:.6g} Hz leave an error of {} where {} is "
+          "asked; take a wider band, or a larger tolerance{}",
+          end_Hz(), reached, asked,
           why_.empty() ? why_ : fmt::format(" (the condensed brake: {})", why_)));
     }
     std::size_t too_few = 0;

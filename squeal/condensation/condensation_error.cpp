@@ -17,13 +17,23 @@ using Eigen::Index, Eigen::VectorXcd;
 /// Growth below this part of the frequency is neither growth nor decay.
 constexpr double neutral = 1e-4;
 
-/// Eigenvalues with Im > 0.
-std::vector<Complex> oscillations(const VectorXcd& lambda)
+/// Eigenvalues with Im >= 0: an oscillation near critical damping may have become two decays.
+std::vector<Complex> of_upper_half(const VectorXcd& lambda)
 {
   std::vector<Complex> upper;
   for (const Complex& one : lambda)
-    if (one.imag() > 0.0) upper.push_back(one);
+    if (one.imag() >= 0.0) upper.push_back(one);
   return upper;
+}
+
+/// Whether an eigenvalue is an oscillation of the band, and remains one within the tolerance. Near
+/// the end of the band, and near critical damping, it may be one in one of the brakes alone.
+bool is_oscillation_of_band(const Complex& lambda, const CondensationOptions& wanted)
+{
+  const double size = std::abs(lambda);
+  const double doubt = std::max(0.01 * wanted.highest, 2.0 * wanted.tolerance * size);
+  return lambda.imag() > 2.0 * std::sqrt(wanted.tolerance) * size &&
+         lambda.imag() + doubt <= wanted.highest;
 }
 
 /// Of each exact eigenvalue the place of its own among those found: the nearest pairs first.
@@ -60,7 +70,7 @@ bool changes_stability(const Complex& exact, const Complex& found)
 CondensationError condensation_error(const VectorXcd& exact, const Eigen::MatrixXd& A,
                                      const CondensationOptions& wanted)
 {
-  const std::vector<Complex> found = oscillations(linear::real_eigenvalues(A));
+  const std::vector<Complex> found = of_upper_half(linear::real_eigenvalues(A));
   const std::vector<std::size_t> partner = partners(exact, found);
   CondensationError error{.n_eigenvalues = static_cast<int>(exact.size()), .n_states = 1};
   for (std::size_t i = 0; i < partner.size(); ++i) {
@@ -74,12 +84,9 @@ CondensationError condensation_error(const VectorXcd& exact, const Eigen::Matrix
     error.growth = std::max(error.growth, std::abs(mine.real() - one.real()));
     if (changes_stability(one, mine)) error.eigenvalues = 1.0;
   }
-  // Near its end an eigenvalue may lie within the band in one of the brakes alone.
-  const double inside = (1.0 - std::max(0.01, 2.0 * wanted.tolerance)) * wanted.highest;
   for (std::size_t j = 0; j < found.size(); ++j) {
-    const bool in_band =
-        found[j].imag() <= inside && std::abs(found[j].real()) <= 0.5 * wanted.highest;
-    if (in_band && std::ranges::find(partner, j) == partner.end()) error.eigenvalues = 1.0;
+    const bool is_own = std::ranges::find(partner, j) != partner.end();
+    if (!is_own && is_oscillation_of_band(found[j], wanted)) error.eigenvalues = 1.0;
     const bool grows = found[j].real() > neutral * std::abs(found[j]);
     if (found[j].imag() > wanted.highest && grows) ++error.n_unstable_beyond;
   }

@@ -70,6 +70,7 @@ constexpr std::array pad_rows = {
            [](PadPair& pad) { return pad.grid ? &pad.grid->sector : nullptr; },
            std::numbers::pi / 180.0},
     PadRow{"pads.area", [](PadPair& pad) { return pad.area ? &*pad.area : nullptr; }},
+    PadRow{"pads.radius", [](PadPair& pad) { return pad.radius ? &*pad.radius : nullptr; }},
     PadRow{"pads.shim.stiffness", of_shim<&Shim::stiffness>},
     PadRow{"pads.shim.loss_factor", of_shim<&Shim::loss_factor>},
     PadRow{"pads.shim.frequency_Hz", of_shim<&Shim::frequency_Hz>},

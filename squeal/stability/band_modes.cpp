@@ -10,6 +10,7 @@
 
 #include "common/eigen_every.hpp"
 #include "linear/dense/orthogonal_factor.hpp"
+#include "linear/dense/real_eigenvalues.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -21,8 +22,22 @@ constexpr Index small = 300, block = 4;
 
 bool is_in_band(const Complex& lambda, double highest)
 {
-  return lambda.imag() > 0.0 && lambda.imag() <= highest &&
-         std::abs(lambda.real()) <= 0.5 * highest;
+  return lambda.imag() > 0.0 && lambda.imag() <= highest;
+}
+
+/// What the search about i highest / 2 finds.
+bool is_near_axis(const Complex& lambda, double highest)
+{
+  return std::abs(lambda.real()) <= 0.5 * highest;
+}
+
+/// Whether some of the band are strongly damped, or grow as fast.
+bool has_far_from_axis(const MatrixXd& A, double highest)
+{
+  const VectorXcd all = linear::real_eigenvalues(A);
+  return std::ranges::any_of(all, [&](const Complex& lambda) {
+    return is_in_band(lambda, highest) && !is_near_axis(lambda, highest);
+  });
 }
 
 /// Those of the band, by ascending frequency.
@@ -95,7 +110,7 @@ class InverseSpace {
   MatrixXcd V_, W_;
 };
 
-/// The modes of the band, where the space tells all of them.
+/// The modes of the band near the axis, where the space tells all of them.
 std::optional<BandModes> known_modes(const InverseSpace& space, const MatrixXd& A,
                                      const Complex& sigma, double highest)
 {
@@ -118,7 +133,10 @@ std::optional<BandModes> known_modes(const InverseSpace& space, const MatrixXd& 
   const MatrixXcd residuals = A * X - X * lambda.asDiagonal();
   for (Index i = 0; i < lambda.size(); ++i)
     if (residuals.col(i).norm() > converged * std::abs(sigma)) return std::nullopt;
-  return within_band(lambda, X, highest);
+  std::vector<Index> wanted;
+  for (Index i = 0; i < lambda.size(); ++i)
+    if (is_near_axis(lambda[i], highest)) wanted.push_back(i);
+  return within_band(lambda(wanted), X(every, wanted), highest);
 }
 
 }  // namespace
@@ -126,7 +144,7 @@ std::optional<BandModes> known_modes(const InverseSpace& space, const MatrixXd& 
 BandModes band_modes(const MatrixXd& A, double highest)
 {
   const Index n = A.rows();
-  if (n <= small) return by_qr(A, highest);
+  if (n <= small || has_far_from_axis(A, highest)) return by_qr(A, highest);
   const Complex sigma(0.0, 0.5 * highest);
   InverseSpace space(A, sigma);
   for (Index size = 80; size <= n / 2; size += size / 2) {

@@ -10,10 +10,11 @@ struct BandModes {
   Eigen::MatrixXcd X;       ///< [n x k] of norm 1
 };
 
-/// All eigenvalues with 0 < Im <= highest and |Re| <= highest / 2, i.e. oscillations of the band
-/// that are not critically damped. Matrices of up to 300 rows are solved by the QR iteration,
-/// larger ones by shift-and-invert block Arnoldi about i highest / 2, whose space grows until all
-/// these eigenvalues have residuals below 1e-9 of their size and one beyond them is known.
+/// All eigenvalues with 0 < Im <= highest, whatever their damping. Matrices of up to 300 rows are
+/// solved by the QR iteration, larger ones by shift-and-invert block Arnoldi about i highest / 2,
+/// whose space grows until all eigenvalues with |Re| <= highest / 2 have residuals below 1e-9 of
+/// their size and one beyond them is known. Where the QR iteration without vectors finds other
+/// eigenvalues of the band, more damped or growing faster, it solves the larger ones too.
 /// Eigenvalues of a multiplicity up to that of a block, four, are all found.
 /// @param A        [n x n] real, 1/s
 /// @param highest  rad/s, > 0

@@ -31,6 +31,27 @@ DiscScaling of_motion(Index first, Index size, std::size_t f)
   };
 }
 
+/// Halvings of the elements that the error by the mesh covers: there is no end to them for a force
+/// at a point. Another mesh of a quarter of the size may place its nodes still nearer to the pads.
+constexpr double halvings = 2.0, of_other_meshes = 1.25;
+/// Where the functions of a ring stand in ModeErrors::mesh_compliances.
+constexpr std::array<Index, 5> compliances_of_functions{0, 2, 2, 1, 1};
+
+/// The compliance of one function of a ring under a pad, by an amount for a factor of e. It belongs
+/// to a point alone, so that all harmonics have the same of it.
+DiscScaling of_compliance(Index ring, Index f, double amount)
+{
+  return [=](InertialDisc& disc, double factor) {
+    std::vector<Eigen::MatrixXcd>& C = disc.compliance.C;
+    const Index n_functions = std::ssize(amplitudes_of(disc.rings.front()));
+    const Index n = n_functions * std::ssize(disc.rings), row = n_functions * ring + f;
+    if (C.empty())
+      C.assign(static_cast<std::size_t>(disc.errors.n_harmonics), Eigen::MatrixXcd::Zero(n, n));
+    const double share = (factor - 1.0) * amount / (2.0 * double(C.size()) - 1.0);
+    for (std::size_t d = 0; d < C.size(); ++d) C[d](row, row) += (d == 0 ? 1.0 : 2.0) * share;
+  };
+}
+
 /// The results of a disc, and how they change.
 struct ChangingResults {
   const InertialDisc& disc;
@@ -49,6 +70,21 @@ struct ChangingResults {
       size = disc.nodal_diameters[static_cast<std::size_t>(i)] > 0 ? 2 : 1;
       if (errors[i] > 0.0) sum += errors[i] * derivative(scaling(i, size)).cwiseAbs();
     }
+    return sum;
+  }
+
+  /// The errors by what a finer mesh yields more under the pads, added without sign.
+  VectorXd by_compliances() const
+  {
+    VectorXd sum = VectorXd::Zero(n);
+    const auto n_functions = static_cast<std::size_t>(disc.rings.front().V_r.size() > 0 ? 5 : 3);
+    const Eigen::MatrixXd& growth = disc.errors.mesh_compliances;
+    for (Index ring = 0; ring < growth.cols(); ++ring)
+      for (std::size_t f = 0; f < n_functions; ++f) {
+        const double amount =
+            halvings * of_other_meshes * growth(compliances_of_functions[f], ring);
+        sum += derivative(of_compliance(ring, static_cast<Index>(f), amount)).cwiseAbs();
+      }
     return sum;
   }
 };
@@ -77,6 +113,7 @@ ErrorsByModes errors_by_modes(const InertialDisc& disc, double omega, Index n_re
           errors.mesh_shapes.row(rows_of_functions[f]),
           [f](Index first, Index size) { return of_motion(first, size, f); });
     }
+    *found.mesh += results.by_compliances();
   }
   if (errors.reduction.size() > 0)
     found.reduction = results.sum_over_modes(errors.reduction, of_frequency);

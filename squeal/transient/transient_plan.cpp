@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/error.hpp"
+#include "common/told_apart.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -43,10 +44,11 @@ void check_steps(const TransientCase& run, double n_steps, double omega_highest)
   const bool is_absurd = highest_Hz > absurd_Hz;
   if (n_steps < (is_absurd ? bearable_steps : steps_max)) return;
   constexpr double steps_per_hour = 3.6e9;  // of two modes on one core
+  const auto [steps, allowed] = told_apart(n_steps, is_absurd ? bearable_steps : steps_max);
   throw Error(
-      fmt::format("transient: {} s take {:.1e} steps (allowed: {:.0e}), hours: {:.1g} or more, "
+      fmt::format("transient: {} s take {} steps (allowed: {}), hours: {:.1g} or more, "
                   "since the highest mode has {:.2g} Hz; {}",
-                  run.duration, n_steps, is_absurd ? bearable_steps : steps_max,
+                  run.duration, steps, allowed,
                   n_steps / steps_per_hour, highest_Hz,
                   is_absurd ? "no brake has: is the density in kg/m^3 and Young's modulus in Pa?"
                             : "simulate less, or keep fewer modes"));

@@ -38,7 +38,7 @@ def eigenvalues(programs, folder, scene):
 
 
 def band(values, up_to_Hz):
-    return [v for v in values if 0 < v.imag <= 2 * numpy.pi * up_to_Hz and abs(v.real) < numpy.pi * up_to_Hz]
+    return [v for v in values if 0 < v.imag <= 2 * numpy.pi * up_to_Hz]
 
 
 def farthest(some, others):

@@ -76,6 +76,8 @@ void expect_equal(const Certificate& a, const Certificate& b)
   EXPECT_EQ(a.eta2, b.eta2);
   EXPECT_EQ(a.mesh_errors, b.mesh_errors);
   EXPECT_EQ(a.mesh_shape_errors, b.mesh_shape_errors);
+  EXPECT_EQ(a.mesh_compliances.sets, b.mesh_compliances.sets);
+  EXPECT_EQ(a.mesh_compliances.growth, b.mesh_compliances.growth);
   EXPECT_EQ(a.bounds, b.bounds);
   expect_equal(a.fixed_interface, b.fixed_interface);
   expect_equal(a.range, b.range);

@@ -58,7 +58,8 @@ ReducedSystem complete_system()
       .condition = 1e9,
       .responses = ResponseCheck{.up_to = 22.0, .error = 3e-4, .loads = {"rim.z", "hub.rx"}},
       .mesh_shape_errors = Eigen::MatrixXd::Random(6, 2).cwiseAbs(),
-      .mesh_errors = Eigen::Vector2d(1e-4, 3e-4)};
+      .mesh_errors = Eigen::Vector2d(1e-4, 3e-4),
+      .mesh_compliances = {.sets = {"rim"}, .growth = Eigen::Vector3d(1e-10, 2e-11, 3e-7)}};
   system.provenance = {.scene = "title = \"wheel\"\n",
                        .mesh_checksum = "cbf29ce484222325",
                        .versions = "PETSc 3.18",

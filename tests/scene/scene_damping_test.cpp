@@ -146,6 +146,7 @@ TEST(FrictionOfAPad, IsItsOwn)
   const Scene scene = scene_of(own);
   EXPECT_EQ(scene.squeal->pads[0].friction->kinetic, 0.3);
   EXPECT_EQ(scene.squeal->pads[0].area, 2e-3);
+  EXPECT_FALSE(scene.squeal->pads[0].radius);
   EXPECT_EQ(scene.squeal->friction.kinetic, 0.6);
 }
 

@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "references/squeal/analytic_body.hpp"
+#include "squeal/brake/point_shapes.hpp"
 #include "squeal/brake/state_matrix.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/motion/rotating_disc.hpp"
 #include "squeal/motion/sliding_disc.hpp"
+#include "squeal/stability/error_budget.hpp"
 #include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {
@@ -55,6 +59,92 @@ std::complex<double> least_stable_of_the_pair(const Disc& disc, const SquealOpti
   for (const std::complex<double>& x : lambda)
     if (x.imag() > 0.0 && x.imag() < 2.0 * pi * 3000.0 && x.real() > worst.real()) worst = x;
   return worst;
+}
+
+TEST(ContactPatch, FeelsTheMeanOverItsFace)
+{
+  constexpr int n = 400;
+  for (const int d : {0, 1, 7, 30}) {
+    for (const double patch : {1e-6, 0.05, 0.3}) {
+      double sum = 0.0, area = 0.0;
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+          const double x = (2.0 * i + 1.0) / n - 1.0, y = (2.0 * j + 1.0) / n - 1.0;
+          if (x * x + y * y > 1.0) continue;
+          area += 1.0;
+          sum += std::cos(d * patch * x);
+        }
+      // The edge of the face goes through cells: n^-3/2.
+      EXPECT_NEAR(mean_over_patch(d, patch), sum / area, 5e-4) << d << " " << patch;
+    }
+  }
+}
+
+TEST(ContactPatch, IsAPointOfADiscThatMovesLess)
+{
+  SquealOptions options = reference_options();
+  PlatePair pair = kirchhoff_3();
+  options.pads.front().radius = 0.03;
+  const Eigen::MatrixXd A = state_matrix(inertial_disc(disc_of({pair})), options, 6.0 * pi);
+  options.pads.front().radius.reset();
+  const double mean = mean_over_patch(3, 0.03 / ring_radius);
+  EXPECT_LT(mean, 0.95);
+  for (double* amplitude : {&pair.U, &pair.U_r, &pair.U_t}) *amplitude *= mean;
+  const Eigen::MatrixXd less = state_matrix(inertial_disc(disc_of({pair})), options, 6.0 * pi);
+  EXPECT_LT((A - less).norm(), 1e-12 * A.norm());
+}
+
+TEST(ContactPatch, IsTheSameForTheTurningDisc)
+{
+  PlatePair turned = kirchhoff_3();
+  turned.turn = 0.4;
+  const Disc disc = disc_of({kirchhoff_2(), turned, kirchhoff_4()});
+  const InertialDisc inertial = inertial_disc(disc);
+  SquealOptions options = two_pads();
+  options.pads.back().radius = 0.025;
+  const PadSystem pads = pad_system(options, ring_places(disc));
+  PointShapes shapes(disc);
+  for (const PointPair& point : pads.points) {
+    EXPECT_LT((inertial.R.transpose() * shapes.at(point, 0.0) - shapes_at(inertial, point)).norm(),
+              1e-11);
+  }
+}
+
+/// Two pairs whose modes the mesh has without error, and what finer elements add at a point.
+mbs_export::ModalBody on_a_mesh(double growth_of_compliance)
+{
+  mbs_export::ModalBody body = analytic_body({kirchhoff_3(), kirchhoff_4()});
+  const Eigen::Index n = body.n_modes();
+  body.certificate = {.fixed = body.fixed,
+                      .frequencies = body.omega,
+                      .eta2 = Eigen::VectorXd::Zero(n),
+                      .mesh_shape_errors = Eigen::MatrixXd::Zero(6, n),
+                      .mesh_errors = Eigen::VectorXd::Zero(n),
+                      .mesh_compliances = {
+                          .sets = {"track"},
+                          .growth = Eigen::Vector3d(growth_of_compliance, 0.0, 0.0)}};
+  return body;
+}
+
+TEST(ErrorBudget, HoldsWhatFinerElementsAddToTheComplianceUnderAPad)
+{
+  // A compliance in series with a pad makes it softer: 1 / k + 2 C, for both pads of the pair.
+  constexpr double growth = 1e-10, halvings = 2.5, speed = 6.0 * pi;
+  SquealOptions options = reference_options();
+  const Disc disc = disc_on_ring(on_a_mesh(growth), "track", {});
+  const auto lambda = least_stable_of_the_pair(disc, options);
+  const auto told = growth_error_budget(FlexibleDisc(disc, options), speed, lambda).mesh;
+  double& k = options.pads.front().stiffness;
+  k = 1.0 / (1.0 / k + 2.0 * halvings * growth);
+  const double softer = least_stable_of_the_pair(disc, options).real();
+  ASSERT_TRUE(told);
+  EXPECT_GT(*told, 1e-4);
+  EXPECT_NEAR(*told, std::abs(softer - lambda.real()), 0.02 * *told);
+  // Of modes that are chosen the rest of the disc is none.
+  const Disc pair = disc_on_ring(on_a_mesh(growth), "track", {.list = {{1, 2}}});
+  const auto of_pair = growth_error_budget(FlexibleDisc(pair, options), speed,
+                                           least_stable_of_the_pair(pair, options));
+  EXPECT_EQ(of_pair.mesh.value(), 0.0);
 }
 
 TEST(ContactCompliance, OfModesFarAboveIsWhatTheyDo)

@@ -123,6 +123,45 @@ TEST(InertialDisc, NeedsBothModesOfAPair)
             std::string::npos);
 }
 
+TEST(InertialDisc, TellsWhatIsJustBeyondALimitWithDigitsThatShowIt)
+{
+  PlatePair split = kirchhoff_3();
+  split.split = 0.010001;  // of the lower frequency; 0.00995 of the mean
+  for (; complaint(disc_of({split})).empty(); split.split += 1e-6) ASSERT_LT(split.split, 0.011);
+  const std::string text = complaint(disc_of({split}));
+  EXPECT_NE(text.find("differ by 0.01000"), std::string::npos) << text;
+  EXPECT_EQ(text.find("differ by 0.01 "), std::string::npos) << text;
+}
+
+TEST(InertialDisc, LetsModesBeyondTheRangeFollowWhereTheirPartnersAreMissing)
+{
+  PlatePair far = kirchhoff_4();
+  far.f_Hz = 9e3;
+  mbs_export::ModalBody body = analytic_body({kirchhoff_2(), kirchhoff_3(), far});
+  for (Eigen::MatrixXd* shapes : {&body.rings[0].W, &body.rings[0].W_r, &body.rings[0].W_t})
+    shapes->col(5).setZero();
+  const Disc disc = disc_on_ring(body, "track", {});
+  EXPECT_EQ(disc.mode_numbers, (std::vector<int>{1, 2, 3, 4}));
+  EXPECT_EQ(disc.alone, (std::vector<int>{5}));
+  EXPECT_EQ(disc.compliance.mode_numbers, (std::vector<int>{5}));
+  EXPECT_NE(notes_of(disc).at(1).find("lack the partner"), std::string::npos) << notes_of(disc)[1];
+  EXPECT_TRUE(find_inertial_disc(disc));
+  // Below half of the highest frequency, or within the certified ones, this is no disc.
+  body.omega[5] *= 3.0;
+  EXPECT_NE(complaint(disc_on_ring(body, "track", {})).find("no partner"), std::string::npos);
+}
+
+TEST(InertialDisc, KeepsModesBesideShapesOfLittleMassFarAbove)
+{
+  // What a reduction has at 1 MHz moves a point of the ring by 1e4 per unit; a pad feels it as a
+  // spring.
+  const PlatePair umbrella{.n = 0, .f_Hz = 686.0, .mass = 4.2, .U = 0.7, .U_r = 8.5, .U_t = 0.0};
+  const PlatePair far{.n = 5, .f_Hz = 1e6, .mass = 1.0, .U = 400.0, .U_r = 1e3, .U_t = 1e4};
+  const Disc disc = disc_on_ring(analytic_body({umbrella, kirchhoff_2(), far}), "track", {});
+  EXPECT_EQ(disc.mode_numbers, (std::vector<int>{1, 2, 3, 4, 5}));
+  EXPECT_TRUE(disc.still.empty());
+}
+
 TEST(InertialDisc, KeepsRotationallySymmetricDamping)
 {
   auto body = analytic_body({kirchhoff_2(), turned_pair()});

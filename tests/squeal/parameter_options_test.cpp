@@ -76,6 +76,7 @@ std::vector<FlexibleDisc> brakes_of_a_body()
   by_table.pads.front().friction = FrictionLaw{.kinetic = 0.4, .rise = 0.2, .decay_speed = 0.5};
   for (SquealOptions* options : {&falling, &by_table}) {
     options->pads.front().area = 1e-3;
+    options->pads.front().radius = 2e-3;
     options->pads.front().shim = Shim{.stiffness = 4e7, .loss_factor = 0.2, .frequency_Hz = 2e3};
     PadPair other = options->pads.front();
     other.angle = 2.0;
@@ -110,7 +111,7 @@ TEST(Parameters, OfABodyChangeItsStateMatrix)
     EXPECT_GT(change, 1e-9) << row.name;
     ++n;
   }
-  EXPECT_EQ(n, 45);
+  EXPECT_EQ(n, 46);
 }
 
 TEST(Parameters, OfABrakeAreThoseThatItsSceneGives)
