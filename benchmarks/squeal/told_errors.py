@@ -20,20 +20,20 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # inner radius, outer radius, radius of the ring, thickness (m); Young's modulus, Poisson's ratio, density; band in Hz
 DISCS = {
-    "thesis": (0.025, 0.162, 0.130, 0.020, 9.2e10, 0.30, 6300.0, 6000.0),
-    "thick": (0.070, 0.180, 0.150, 0.030, 1.3e11, 0.25, 7100.0, 9000.0),
-    "thin": (0.040, 0.150, 0.120, 0.008, 1.1e11, 0.27, 7150.0, 4000.0),
-    "narrow": (0.080, 0.170, 0.145, 0.015, 1.1e11, 0.28, 7100.0, 6000.0),
-    "small": (0.030, 0.100, 0.080, 0.010, 1.2e11, 0.27, 7200.0, 9000.0),
-    "large": (0.060, 0.220, 0.190, 0.024, 1.0e11, 0.26, 7000.0, 5000.0),
-    "steel": (0.047, 0.143, 0.1175, 0.0115, 2.06e11, 0.285, 7830.0, 8000.0),
-    "rim": (0.100, 0.165, 0.155, 0.018, 1.1e11, 0.27, 7150.0, 8000.0),
-    "wide": (0.020, 0.160, 0.100, 0.014, 1.1e11, 0.27, 7150.0, 5000.0),
-    "aluminium": (0.040, 0.140, 0.110, 0.016, 7.0e10, 0.33, 2700.0, 8000.0),
-    "bicycle": (0.055, 0.080, 0.072, 0.004, 2.0e11, 0.29, 7900.0, 8000.0),
-    "lorry": (0.090, 0.215, 0.180, 0.040, 1.05e11, 0.26, 7100.0, 7000.0),
+    "thesis": (0.025, 0.162, 0.130, 0.020, 9.2e10, 0.30, 6300.0, 4000.0),
+    "thick": (0.070, 0.180, 0.150, 0.030, 1.3e11, 0.25, 7100.0, 6000.0),
+    "thin": (0.040, 0.150, 0.120, 0.008, 1.1e11, 0.27, 7150.0, 2500.0),
+    "narrow": (0.080, 0.170, 0.145, 0.015, 1.1e11, 0.28, 7100.0, 4500.0),
+    "small": (0.030, 0.100, 0.080, 0.010, 1.2e11, 0.27, 7200.0, 6000.0),
+    "large": (0.060, 0.220, 0.190, 0.024, 1.0e11, 0.26, 7000.0, 3500.0),
+    "steel": (0.047, 0.143, 0.1175, 0.0115, 2.06e11, 0.285, 7830.0, 5000.0),
+    "rim": (0.100, 0.165, 0.155, 0.018, 1.1e11, 0.27, 7150.0, 5000.0),
+    "wide": (0.020, 0.160, 0.100, 0.014, 1.1e11, 0.27, 7150.0, 3500.0),
+    "aluminium": (0.040, 0.140, 0.110, 0.016, 7.0e10, 0.33, 2700.0, 5500.0),
+    "bicycle": (0.055, 0.080, 0.072, 0.004, 2.0e11, 0.29, 7900.0, 5000.0),
+    "lorry": (0.090, 0.215, 0.180, 0.040, 1.05e11, 0.26, 7100.0, 5000.0),
 }
-MESHES = ((2, 0.22), (2, 0.14), (3, 0.35), (3, 0.22))  # order, size of the elements over the outer radius
+MESHES = ((2, 0.3), (2, 0.2), (3, 0.4), (3, 0.28))  # order, size of the elements over the outer radius
 # friction, stiffness of a pad in N/m, angles of the pads
 BRAKES = {"one pad": (0.4, 2e7, (10.0,)), "two pads": (0.4, 2e7, (10.0, 100.0)),
           "soft pad": (0.6, 4e6, (10.0,)), "two stiff pads": (0.3, 6e7, (10.0, 145.0))}
@@ -79,7 +79,7 @@ keep = {{ tolerance = 1e-4, up_to_Hz = {up_to_Hz} }}
 [squeal]
 ring = "track"
 thickness = {thickness}
-speeds = {{ from_rad_s = 2.0, to_rad_s = 120.0, count = 30 }}
+speeds = {{ from_rad_s = 2.0, to_rad_s = 120.0, count = 20 }}
 friction = {friction}
 pads = [{pads}]
 analyses = ["critical-speed", "stability"]
@@ -132,7 +132,8 @@ def compared(mesh, finer):
     return rows
 
 
-def measure(programs, folder, quick):
+def measure(programs, folder, quick, keep):
+    """Rows so far are kept after each mesh."""
     brakes = list(BRAKES)[:2] if quick else list(BRAKES)
     rows = []
     for disc in list(DISCS)[:2] if quick else DISCS:
@@ -143,7 +144,9 @@ def measure(programs, folder, quick):
             for brake in brakes:
                 for row in compared(mesh[brake], [each[brake] for each in finer]):
                     rows.append({"disc": disc, "order": order, "size": size, "brake": brake} | row)
-            print(f"{disc}, order {order}, {size:.4f} m: {ratios(rows[-1:])}", flush=True)
+            of_mesh = ratios([row for row in rows if (row["disc"], row["order"], row["size"]) == (disc, order, size)])
+            print(f"{disc}, order {order}, {size:.4f} m: {len(of_mesh)} numbers, {of_mesh.min(initial=np.inf):.2f} to {of_mesh.max(initial=0):.2f}", flush=True)
+            keep({"rows": rows})
     return {"rows": rows}
 
 
@@ -188,10 +191,14 @@ def main():
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build/release/bin")
     parser.add_argument("output", type=pathlib.Path)
     wanted = parser.parse_args()
+    wanted.output.mkdir(parents=True, exist_ok=True)
+
+    def keep(result):
+        (wanted.output / "told_errors.json").write_text(json.dumps(result, indent=1) + "\n")
+        (wanted.output / "told_errors.md").write_text(page(result))
+
     with tempfile.TemporaryDirectory() as name:
-        result = measure(wanted.programs.resolve(), pathlib.Path(name), wanted.quick)
-    (wanted.output / "told_errors.json").write_text(json.dumps(result, indent=1) + "\n")
-    (wanted.output / "told_errors.md").write_text(page(result))
+        result = measure(wanted.programs.resolve(), pathlib.Path(name), wanted.quick, keep)
     least = ratios(result["rows"]).min()
     if least < 1.0:
         sys.exit(f"told_errors.py: FAILED: an error told is {least:.2f} times what a finer mesh finds")

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 
@@ -162,33 +163,38 @@ Disc with_modes(const Disc& all, const std::vector<int>& modes)
                      .range = all.errors.range}};
 }
 
-/// Beyond the certified frequencies, or half of the highest one, modes that lack a partner follow
-/// the pads without inertia: a reduction has there what its shapes make of others. Nothing is done
-/// where modes below lack one too: such a disc is not axisymmetric.
+/// Of some modes those that the others leave without a partner, or with one that is too different.
+std::vector<int> unpaired(const Disc& all, const std::vector<int>& modes)
+{
+  const Eigen::VectorXd shares = unpaired_shares(with_modes(all, modes));
+  std::vector<int> found;
+  for (Eigen::Index k = 0; k < shares.size(); ++k)
+    if (shares[k] >= impurity_limit * impurity_limit)
+      found.push_back(modes[static_cast<std::size_t>(k)]);
+  return found;
+}
+
+/// Modes beyond the certified frequencies, or beyond half of the highest one, follow the pads
+/// without inertia where the disc would not be axisymmetric with them, and is without: a reduction
+/// has there what its shapes make of others. Those whose partners are missing do first.
 void let_unpaired_follow(const Disc& all, ModeParts& parts)
 {
-  const double end = all.errors.range > 0.0 ? all.errors.range : 0.5 * all.omega.maxCoeff();
-  std::vector<int> paired = parts.dynamic, alone;
-  for (;;) {
-    if (paired.empty() || all.omega[paired.back()] <= end) return;
-    const Eigen::VectorXd shares = unpaired_shares(with_modes(all, paired));
-    std::vector<int> kept;
-    for (Eigen::Index k = 0; k < shares.size(); ++k) {
-      const int mode = paired[static_cast<std::size_t>(k)];
-      if (shares[k] < without_partner)
-        kept.push_back(mode);
-      else if (all.omega[mode] > end)
-        alone.push_back(mode);
-      else
-        return;
-    }
-    if (kept.size() == paired.size()) break;
-    paired = std::move(kept);
-  }
-  parts.dynamic = std::move(paired);
-  parts.quasi_static.insert(parts.quasi_static.end(), alone.begin(), alone.end());
+  constexpr double same = 1e-3;
+  const double known = all.errors.range;
+  const double end = known > 0.0 ? (1.0 + same) * known : 0.5 * all.omega.maxCoeff();
+  std::vector<int> within, beyond;
+  for (const int mode : parts.dynamic) (all.omega[mode] <= end ? within : beyond).push_back(mode);
+  if (within.empty() || beyond.empty() || !asymmetry(with_modes(all, parts.dynamic)) ||
+      asymmetry(with_modes(all, within)))
+    return;
+  std::vector<int> alone = unpaired(all, parts.dynamic), paired;
+  std::erase_if(alone, [&](int mode) { return all.omega[mode] <= end; });
+  std::ranges::set_difference(parts.dynamic, alone, std::back_inserter(paired));
+  const bool is_enough = !asymmetry(with_modes(all, paired));
+  parts.alone = is_enough ? std::move(alone) : std::move(beyond);
+  parts.dynamic = is_enough ? std::move(paired) : std::move(within);
+  parts.quasi_static.insert(parts.quasi_static.end(), parts.alone.begin(), parts.alone.end());
   std::ranges::sort(parts.quasi_static);
-  parts.alone = std::move(alone);
 }
 
 }  // namespace
@@ -221,9 +227,9 @@ std::vector<std::string> notes_of(const Disc& disc)
   }
   if (!disc.alone.empty()) {
     notes.push_back(fmt::format(
-        "{} of these lack the partner that a disc has for each mode with nodal diameters: {}; "
-        "the reduction has them beyond its range",
-        disc.alone.size(), fmt::join(disc.alone, ", ")));
+        "{} of these, beyond the frequencies that the reduction knows the errors of, lack the "
+        "partners that modes of an axisymmetric disc have: they are none of its modes",
+        disc.alone.size()));
   }
   if (!disc.still.empty()) {
     notes.push_back(fmt::format(

@@ -61,8 +61,8 @@ struct Disc {
   /// 1-based numbers of modes left out because their sign changes from node to node of the rings,
   /// which show one of the two modes of such a pair only.
   std::vector<int> alternating = {};
-  /// 1-based numbers of modes beyond the range that follow the pads without inertia because they
-  /// lack a partner.
+  /// 1-based numbers of modes beyond the certified frequencies that follow the pads without inertia
+  /// because the disc is not axisymmetric with them.
   std::vector<int> alone = {};
   ModeErrors errors = {};
   std::vector<ModeFigure> figures = {};  ///< [n_modes]; empty if unknown
@@ -78,8 +78,9 @@ struct Disc {
 /// holds beyond the body's range for interface modes, and for the modes beyond the certificate of a
 /// reduction that was made for responses. Such modes represent the static response of all modes
 /// beyond the range, at frequencies that the disc does not have. The same holds for modes beyond the
-/// certified frequencies (where there are none, beyond half of the highest one) that lack a partner.
-/// Other modes keep their inertia, and a mode of unknown kind counts as one of the disc.
+/// certified frequencies (where there are none, beyond half of the highest one) if the disc is
+/// axisymmetric without them alone. Other modes keep their inertia, and a mode of unknown kind counts
+/// as one of the disc.
 /// @throws chladni::Error for an unknown ring, two rings with one name, a mode number that is out
 ///         of range or repeated, a number of nodal diameters without a pair of modes, rigid-body
 ///         modes (the body is not held), and modes that do not move the ring.

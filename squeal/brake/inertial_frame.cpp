@@ -45,6 +45,9 @@ Eigen::VectorXd unmatched(const RingHarmonics& harmonics, const std::vector<Harm
   return rest;
 }
 
+/// Of its squared motion, what no pair has.
+constexpr double without_partner = 0.5;
+
 std::optional<Complaint> mode_without_partner(const Disc& disc, const Eigen::VectorXd& unpaired)
 {
   Eigen::Index i = 0;

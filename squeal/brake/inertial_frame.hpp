@@ -67,9 +67,6 @@ inline constexpr double split_limit = 0.01;
 /// [n_modes]: a mode without a partner has nearly all of it, one among asymmetric ones some of it.
 Eigen::VectorXd unpaired_shares(const Disc& disc);
 
-/// From this share on a mode counts as one without a partner.
-inline constexpr double without_partner = 0.5;
-
 /// The disc in the inertial frame.
 /// @throws chladni::Error when the disc is not axisymmetric (impurity, split or damping above its
 ///         limit, with the value), or when only one mode of a pair was chosen.
