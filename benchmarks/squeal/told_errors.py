@@ -39,6 +39,12 @@ BRAKES = {"one pad": (0.4, 2e7, (10.0,)), "two pads": (0.4, 2e7, (10.0, 100.0)),
           "soft pad": (0.6, 4e6, (10.0,)), "two stiff pads": (0.3, 6e7, (10.0, 145.0))}
 
 
+def size_of(disc, part):
+    """Of a part of the outer radius; an element at least fits into the width."""
+    inner, outer = DISCS[disc][:2]
+    return min(part * outer, 0.9 * (outer - inner))
+
+
 def scene(disc, order, size, brake, tells):
     inner, outer, radius, thickness, young, poisson, density, up_to_Hz = DISCS[disc]
     friction, stiffness, angles = BRAKES[brake]
@@ -138,7 +144,7 @@ def measure(programs, folder, quick, keep):
     rows = []
     for disc in list(DISCS)[:2] if quick else DISCS:
         for order, part in MESHES[2:3] if quick else MESHES:
-            size = part * DISCS[disc][1]
+            size = size_of(disc, part)
             mesh = solved(programs, folder, disc, order, size, brakes, tells=True)
             finer = [solved(programs, folder, disc, order, size / parts, brakes) for parts in (2, 4)]
             for brake in brakes:
@@ -164,7 +170,7 @@ def spread(rows):
 def page(result):
     rows = result["rows"]
     lines = ["# Errors told of growth rates and critical speeds", "",
-             f"{len({row['disc'] for row in rows})} discs on {len({(row['order'], row['size'] / DISCS[row['disc']][1]) for row in rows})} meshes each, under "
+             f"{len({row['disc'] for row in rows})} discs on {len(MESHES)} meshes each, under "
              f"{len({row['brake'] for row in rows})} brakes with one and two pads, friction of 0.3 to 0.6 and pads of 4 to 60 kN/mm. The error that",
              "`squeal run` tells on a mesh ([its parts](../explanation/squeal.md#the-error-of-a-critical-speed)) over the larger one of the differences to meshes of half and of a quarter of",
              "the element size, of every mode that grows and of every critical speed. Written by `benchmarks/squeal/told_errors.py`.", "",
@@ -179,7 +185,7 @@ def page(result):
         lines.append(f"| {disc} | {spread([row for row in rows if row['disc'] == disc])} |")
     lines += ["", "| mesh | numbers | least | median | nine of ten below | largest | between 1 and 10 |", "| --- | --- | --- | --- | --- | --- | --- |"]
     for order, part in MESHES:
-        some = [row for row in rows if row["order"] == order and abs(row["size"] / DISCS[row["disc"]][1] / part - 1.0) < 1e-9]
+        some = [row for row in rows if row["order"] == order and row["size"] == size_of(row["disc"], part)]
         if some:
             lines.append(f"| order {order}, {part:g} of the outer radius | {spread(some)} |")
     return "\n".join(lines + [""])

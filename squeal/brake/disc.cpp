@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -174,23 +175,39 @@ std::vector<int> unpaired(const Disc& all, const std::vector<int>& modes)
   return found;
 }
 
-/// Modes beyond the certified frequencies, or beyond half of the highest one, follow the pads
-/// without inertia where the disc would not be axisymmetric with them, and is without: a reduction
-/// has there what its shapes make of others. Those whose partners are missing do first.
-void let_unpaired_follow(const Disc& all, ModeParts& parts)
+/// Whether these modes are those of an axisymmetric disc, whatever their damping.
+bool are_axisymmetric(const Disc& all, const std::vector<int>& modes)
+{
+  Disc disc = with_modes(all, modes);
+  disc.C.setZero();
+  return !asymmetry(disc);
+}
+
+/// The end of what a reduction knows of its modes, rad/s: the certified frequencies or, of a body of
+/// all modes, half of the highest one; infinite where neither is known.
+double end_of_known(const Disc& all, const ModalBody& body)
 {
   constexpr double same = 1e-3;
-  const double known = all.errors.range;
-  const double end = known > 0.0 ? (1.0 + same) * known : 0.5 * all.omega.maxCoeff();
+  if (all.errors.range > 0.0) return (1.0 + same) * all.errors.range;
+  const int n_all = body.preparation.n_constrained_modes;
+  const bool has_all = n_all > 0 && body.n_modes() >= n_all;
+  return has_all ? 0.5 * all.omega.maxCoeff() : std::numeric_limits<double>::infinity();
+}
+
+/// Modes beyond `end` follow the pads without inertia where the disc would not be axisymmetric with
+/// them, and is without: a reduction has there what its shapes make of others. Those whose partners
+/// are missing do first.
+void let_unpaired_follow(const Disc& all, double end, ModeParts& parts)
+{
   std::vector<int> within, beyond;
   for (const int mode : parts.dynamic) (all.omega[mode] <= end ? within : beyond).push_back(mode);
-  if (within.empty() || beyond.empty() || !asymmetry(with_modes(all, parts.dynamic)) ||
-      asymmetry(with_modes(all, within)))
+  if (within.empty() || beyond.empty() || are_axisymmetric(all, parts.dynamic) ||
+      !are_axisymmetric(all, within))
     return;
   std::vector<int> alone = unpaired(all, parts.dynamic), paired;
   std::erase_if(alone, [&](int mode) { return all.omega[mode] <= end; });
   std::ranges::set_difference(parts.dynamic, alone, std::back_inserter(paired));
-  const bool is_enough = !asymmetry(with_modes(all, paired));
+  const bool is_enough = are_axisymmetric(all, paired);
   parts.alone = is_enough ? std::move(alone) : std::move(beyond);
   parts.dynamic = is_enough ? std::move(paired) : std::move(within);
   parts.quasi_static.insert(parts.quasi_static.end(), parts.alone.begin(), parts.alone.end());
@@ -284,7 +301,7 @@ Disc make_disc(const ModalBody& body, const RingChoice& rings, const ModeChoice&
   }
   ModeParts parts = mode_parts(all, body, choice);
   const bool has_choice = choice.list || choice.nodal_diameters;
-  if (!has_choice) let_unpaired_follow(all, parts);
+  if (!has_choice) let_unpaired_follow(all, end_of_known(all, body), parts);
   Disc disc = with_modes(all, parts.dynamic);
   if (has_choice) disc.errors.mesh_compliances = {};  // of what is left out
   disc.range = range_of(body);

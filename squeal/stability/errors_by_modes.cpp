@@ -33,7 +33,7 @@ DiscScaling of_motion(Index first, Index size, std::size_t f)
 
 /// Halvings of the elements that the error by the mesh covers: there is no end to them for a force
 /// at a point. Another mesh of a quarter of the size may place its nodes still nearer to the pads.
-constexpr double halvings = 2.0, of_other_meshes = 1.25;
+constexpr double halvings = 2.0, of_other_meshes = 1.4;
 /// Where the functions of a ring stand in ModeErrors::mesh_compliances.
 constexpr std::array<Index, 5> compliances_of_functions{0, 2, 2, 1, 1};
 
@@ -73,21 +73,21 @@ struct ChangingResults {
     return sum;
   }
 
-  /// The errors by what a finer mesh yields more under the pads, added without sign.
-  VectorXd by_compliances() const
-  {
-    VectorXd sum = VectorXd::Zero(n);
-    const auto n_functions = static_cast<std::size_t>(disc.rings.front().V_r.size() > 0 ? 5 : 3);
-    const Eigen::MatrixXd& growth = disc.errors.mesh_compliances;
-    for (Index ring = 0; ring < growth.cols(); ++ring)
-      for (std::size_t f = 0; f < n_functions; ++f) {
-        const double amount =
-            halvings * of_other_meshes * growth(compliances_of_functions[f], ring);
-        sum += derivative(of_compliance(ring, static_cast<Index>(f), amount)).cwiseAbs();
-      }
-    return sum;
-  }
 };
+
+/// What a finer mesh yields more of each function of each ring.
+std::vector<DiscScaling> finer_functions(const InertialDisc& disc)
+{
+  std::vector<DiscScaling> all;
+  const std::size_t n_functions = disc.rings.front().V_r.size() > 0 ? 5 : 3;
+  const Eigen::MatrixXd& growth = disc.errors.mesh_compliances;
+  for (Index ring = 0; ring < growth.cols(); ++ring)
+    for (std::size_t f = 0; f < n_functions; ++f) {
+      const double amount = halvings * of_other_meshes * growth(compliances_of_functions[f], ring);
+      all.push_back(of_compliance(ring, static_cast<Index>(f), amount));
+    }
+  return all;
+}
 
 }  // namespace
 
@@ -97,6 +97,21 @@ ErrorBudget ErrorsByModes::budget(Index result) const
     return errors ? std::optional((*errors)[result]) : std::nullopt;
   };
   return {.mesh = part(mesh), .reduction = part(reduction), .body = part(body)};
+}
+
+VectorXd errors_by_compliance(const InertialDisc& disc, Index n_results,
+                              const DerivativeByDisc& derivative)
+{
+  VectorXd sum = VectorXd::Zero(n_results);
+  for (const DiscScaling& finer : finer_functions(disc)) sum += derivative(finer).cwiseAbs();
+  return sum;
+}
+
+DiscScaling finer_under_the_pads(const InertialDisc& disc)
+{
+  return [all = finer_functions(disc)](InertialDisc& changed, double factor) {
+    for (const DiscScaling& finer : all) finer(changed, factor);
+  };
 }
 
 ErrorsByModes errors_by_modes(const InertialDisc& disc, double omega, Index n_results,
@@ -113,7 +128,7 @@ ErrorsByModes errors_by_modes(const InertialDisc& disc, double omega, Index n_re
           errors.mesh_shapes.row(rows_of_functions[f]),
           [f](Index first, Index size) { return of_motion(first, size, f); });
     }
-    *found.mesh += results.by_compliances();
+    *found.mesh += errors_by_compliance(disc, n_results, derivative);
   }
   if (errors.reduction.size() > 0)
     found.reduction = results.sum_over_modes(errors.reduction, of_frequency);

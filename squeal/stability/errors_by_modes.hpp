@@ -31,4 +31,11 @@ struct ErrorsByModes {
 ErrorsByModes errors_by_modes(const InertialDisc& disc, double omega, Eigen::Index n_results,
                               const DerivativeByDisc& derivative);
 
+/// The part of the error by the mesh that finer elements cause by the compliance under the pads.
+Eigen::VectorXd errors_by_compliance(const InertialDisc& disc, Eigen::Index n_results,
+                                     const DerivativeByDisc& derivative);
+
+/// Adds this compliance itself, (factor - 1) times, to all functions of all rings.
+DiscScaling finer_under_the_pads(const InertialDisc& disc);
+
 }  // namespace chladni::squeal
