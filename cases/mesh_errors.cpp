@@ -138,8 +138,8 @@ VectorXd loaded_compliances(const SupportedModel& model, const LoadedSets& loade
           node != with_number.end() ? model.system.dofs.dof(node->second, c) : std::nullopt;
       dofs.push_back(dof ? static_cast<PetscInt>(*dof) : -1);
     }
-  return reduce::own_compliances(
-      model.system.K, reduce::free_dofs(model.system.K, model.held), dofs, solver);
+  return reduce::own_compliances(model.system.K, reduce::free_dofs(model.system.K, model.held),
+                                 dofs, solver);
 }
 
 /// Modes of a model as another starts from them.
@@ -248,8 +248,8 @@ mbs_export::OwnCompliances mesh_compliances(const scene::Scene& scene,
       (by_orders && !plate::can_rise(model.mesh)))
     return {};
   const SupportedModel finer = assemble_supported(
-      scene, plate::refined(model.mesh, {.parts = by_orders ? 1 : 2,
-                                         .order = by_orders ? order + 1 : order})
+      scene, plate::refined(model.mesh,
+                            {.parts = by_orders ? 1 : 2, .order = by_orders ? order + 1 : order})
                  .mesh);
   // With elements of one order more nodes are nearer to each other by this power of two.
   const double halvings = by_orders ? std::log2(1.0 + 1.0 / order) : 1.0;

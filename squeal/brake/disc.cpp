@@ -183,8 +183,8 @@ bool are_axisymmetric(const Disc& all, const std::vector<int>& modes)
   return !asymmetry(disc);
 }
 
-/// The end of what a reduction knows of its modes, rad/s: the certified frequencies or, of a body of
-/// all modes, half of the highest one; infinite where neither is known.
+/// The end of what a reduction knows of its modes, rad/s: the certified frequencies or, of a body
+/// of all modes, half of the highest one; infinite where neither is known.
 double end_of_known(const Disc& all, const ModalBody& body)
 {
   constexpr double same = 1e-3;

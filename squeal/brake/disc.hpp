@@ -77,10 +77,10 @@ struct Disc {
 /// above `ModeChoice::quasi_static_above` contribute their compliance only; if that is absent, this
 /// holds beyond the body's range for interface modes, and for the modes beyond the certificate of a
 /// reduction that was made for responses. Such modes represent the static response of all modes
-/// beyond the range, at frequencies that the disc does not have. The same holds for modes beyond the
-/// certified frequencies (in a body of all modes without them, beyond half of the highest one) if the disc is
-/// axisymmetric without them alone. Other modes keep their inertia, and a mode of unknown kind counts
-/// as one of the disc.
+/// beyond the range, at frequencies that the disc does not have. The same holds for modes beyond
+/// the certified frequencies (in a body of all modes without them, beyond half of the highest one)
+/// if the disc is axisymmetric without them alone. Other modes keep their inertia, and a mode of
+/// unknown kind counts as one of the disc.
 /// @throws chladni::Error for an unknown ring, two rings with one name, a mode number that is out
 ///         of range or repeated, a number of nodal diameters without a pair of modes, rigid-body
 ///         modes (the body is not held), and modes that do not move the ring.

@@ -201,9 +201,10 @@ std::variant<InertialDisc, Complaint> with_damping(InertialDisc inertial, const 
                     inertial.largest_split, inertial.damping_spread)};
   }
   const double deviation = (C - inertial.C).norm();
-  if (deviation > impurity_limit * C.norm())
+  if (deviation > impurity_limit * C.norm()) {
     return beyond("its damping changes around the circumference by", deviation / C.norm(),
                   impurity_limit);
+  }
   return inertial;
 }
 
@@ -211,8 +212,7 @@ std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
 {
   const RingHarmonics harmonics = ring_harmonics(disc.rings);
   const auto spaces = harmonic_spaces(rotation_generator(harmonics, disc.omega));
-  const Eigen::VectorXd unpaired =
-      unmatched(harmonics, spaces).cwiseQuotient(harmonics.squares());
+  const Eigen::VectorXd unpaired = unmatched(harmonics, spaces).cwiseQuotient(harmonics.squares());
   if (auto complaint = mode_without_partner(disc, unpaired)) return *complaint;
   InertialDisc inertial = empty_inertial_disc(disc);
   Eigen::Index at = 0;
@@ -230,9 +230,10 @@ std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
     at += size;
   }
   inertial.largest_split = largest_split(disc, spaces);
-  if (!(inertial.largest_impurity < impurity_limit))
+  if (!(inertial.largest_impurity < impurity_limit)) {
     return beyond("its mode shapes on the ring differ from pure harmonics by",
                   inertial.largest_impurity, impurity_limit);
+  }
   if (!(inertial.largest_split < split_limit))
     return beyond("the frequencies of a pair differ by", inertial.largest_split, split_limit);
   return with_damping(std::move(inertial), disc);

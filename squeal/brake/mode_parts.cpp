@@ -54,9 +54,10 @@ struct Motions {
   std::vector<int> still;
 };
 
-/// Of each mode the largest squared motion of the rings that a pad feels at its frequency, or at the
-/// end of the range where that is higher. To a pad a mode far above is a spring of the compliance
-/// W^2 / omega^2: what a reduction has there, of little mass and large motion, counts by that.
+/// Of each mode the largest squared motion of the rings that a pad feels at its frequency, or at
+/// the end of the range where that is higher. To a pad a mode far above is a spring of the
+/// compliance W^2 / omega^2: what a reduction has there, of little mass and large motion, counts by
+/// that.
 Eigen::VectorXd felt_motion(const Disc& disc, const Eigen::VectorXd& motion)
 {
   const double lowest = std::max(disc.errors.range, rigid_limit);
@@ -84,7 +85,7 @@ Motions motions_of(const Disc& disc)
   Motions motions;
   for (int i = 0; i < disc.n_modes(); ++i) {
     const bool is_alternating = alternates[std::size_t(i)] != 0 && moves[std::size_t(i)] == 0;
-    (is_alternating   ? motions.alternating
+    (is_alternating      ? motions.alternating
      : all[i] > limit[i] ? motions.moving
                          : motions.still)
         .push_back(i);

@@ -36,9 +36,10 @@ Eigen::MatrixXd shapes_at(const InertialDisc& disc, const PointPair& point)
 {
   const auto of_ring = [&](std::size_t ring) {
     Eigen::MatrixXd shapes = matrix_of(shapes_at(disc, disc.rings[ring], point.angle));
-    for (Eigen::Index i = 0; i < shapes.rows(); ++i)
+    for (Eigen::Index i = 0; i < shapes.rows(); ++i) {
       shapes.row(i) *=
           mean_over_patch(disc.nodal_diameters[static_cast<std::size_t>(i)], point.patch);
+    }
     return shapes;
   };
   const Eigen::MatrixXd upper = of_ring(point.rings[0]);

@@ -25,7 +25,7 @@ class PointShapes {
 
   std::vector<DiscRing> disc_rings_;
   std::map<double, std::vector<RingShapes>> rings_;  ///< by the patch
-  Eigen::MatrixXd both_;  ///< shapes of two rings side by side
+  Eigen::MatrixXd both_;                             ///< shapes of two rings side by side
 };
 
 /// Mode shapes of the disc in the inertial frame at a point pair.

@@ -11,7 +11,7 @@ namespace chladni::squeal {
 
 /// What condensed bodies must keep.
 struct CondensationOptions {
-  double tolerance;             ///< largest relative error of an eigenvalue of the band
+  double tolerance;  ///< largest relative error of an eigenvalue of the band
   /// End of the band, rad/s: all oscillations with Im(lambda) up to here, whatever their damping.
   double highest;
   double speed_from, speed_to;  ///< rad/s

@@ -72,7 +72,6 @@ struct ChangingResults {
     }
     return sum;
   }
-
 };
 
 /// What a finer mesh yields more of each function of each ring.

@@ -48,8 +48,7 @@ void check_steps(const TransientCase& run, double n_steps, double omega_highest)
   throw Error(
       fmt::format("transient: {} s take {} steps (allowed: {}), hours: {:.1g} or more, "
                   "since the highest mode has {:.2g} Hz; {}",
-                  run.duration, steps, allowed,
-                  n_steps / steps_per_hour, highest_Hz,
+                  run.duration, steps, allowed, n_steps / steps_per_hour, highest_Hz,
                   is_absurd ? "no brake has: is the density in kg/m^3 and Young's modulus in Pa?"
                             : "simulate less, or keep fewer modes"));
 }

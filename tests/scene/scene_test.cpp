@@ -626,11 +626,13 @@ TEST(Scene, ReadsPadsWithAGridABodyAndACaliper)
   const auto error_after = [&](const std::string& from, const std::string& to) {
     return error_of(replaced(disc, plain, replaced(good, from, to)));
   };
-  EXPECT_EQ(error_after("grid = {", "radius = 0.02, grid = {"),
-            "scene.toml:39: squeal.pads.radius is that of a round face, and `grid` gives the points "
-            "of another one");
+  EXPECT_EQ(
+      error_after("grid = {", "radius = 0.02, grid = {"),
+      "scene.toml:39: squeal.pads.radius is that of a round face, and `grid` gives the points "
+      "of another one");
   const std::string round = replaced(plain, "damping = 1.0", "damping = 1.0, radius = 0.02");
-  EXPECT_EQ(parse_scene(replaced(disc, plain, round), "scene.toml").squeal->pads.at(0).radius, 0.02);
+  EXPECT_EQ(parse_scene(replaced(disc, plain, round), "scene.toml").squeal->pads.at(0).radius,
+            0.02);
   EXPECT_EQ(error_after("points = 5", "points = 0"),
             "scene.toml:39: squeal.pads.grid.points = 0: must be >= 1 and <= 10000");
   EXPECT_EQ(error_after("sector_deg = 40.0", "sector_deg = 400.0"),

@@ -115,14 +115,14 @@ mbs_export::ModalBody on_a_mesh(double growth_of_compliance)
 {
   mbs_export::ModalBody body = analytic_body({kirchhoff_3(), kirchhoff_4()});
   const Eigen::Index n = body.n_modes();
-  body.certificate = {.fixed = body.fixed,
-                      .frequencies = body.omega,
-                      .eta2 = Eigen::VectorXd::Zero(n),
-                      .mesh_shape_errors = Eigen::MatrixXd::Zero(6, n),
-                      .mesh_errors = Eigen::VectorXd::Zero(n),
-                      .mesh_compliances = {
-                          .sets = {"track"},
-                          .growth = Eigen::Vector3d(growth_of_compliance, 0.0, 0.0)}};
+  body.certificate = {
+      .fixed = body.fixed,
+      .frequencies = body.omega,
+      .eta2 = Eigen::VectorXd::Zero(n),
+      .mesh_shape_errors = Eigen::MatrixXd::Zero(6, n),
+      .mesh_errors = Eigen::VectorXd::Zero(n),
+      .mesh_compliances = {.sets = {"track"},
+                           .growth = Eigen::Vector3d(growth_of_compliance, 0.0, 0.0)}};
   return body;
 }
 
