@@ -183,17 +183,6 @@ bool are_axisymmetric(const Disc& all, const std::vector<int>& modes)
   return !asymmetry(disc);
 }
 
-/// The end of what a reduction knows of its modes, rad/s: the certified frequencies or, of a body
-/// of all modes, half of the highest one; infinite where neither is known.
-double end_of_known(const Disc& all, const ModalBody& body)
-{
-  constexpr double same = 1e-3;
-  if (all.errors.range > 0.0) return (1.0 + same) * all.errors.range;
-  const int n_all = body.preparation.n_constrained_modes;
-  const bool has_all = n_all > 0 && body.n_modes() >= n_all;
-  return has_all ? 0.5 * all.omega.maxCoeff() : std::numeric_limits<double>::infinity();
-}
-
 /// Modes beyond `end` follow the pads without inertia where the disc would not be axisymmetric with
 /// them, and is without: a reduction has there what its shapes make of others. Those whose partners
 /// are missing do first.

@@ -238,10 +238,10 @@ std::optional<Diameters> diameters_on(const DiscRing& ring, Eigen::Index mode, d
 }
 
 /// A vibration of the disc in the band, not what stands for others.
-bool is_in_band(const ModalBody& body, int i)
+/// @param end  of the band, rad/s
+bool is_in_band(const ModalBody& body, int i, double end)
 {
-  return is_of_disc(body, i) && kind_of(body, i) != ModeKind::rigid &&
-         body.omega[i] <= range_of(body);
+  return is_of_disc(body, i) && kind_of(body, i) != ModeKind::rigid && body.omega[i] <= end;
 }
 
 /// The diameters of the modes of a disc in the band on one ring, by their indices in the body.
@@ -251,14 +251,15 @@ std::map<int, Diameters> diameters_in_band(const Disc& disc, const DiscRing& rin
   const Eigen::VectorXd motion =
       (ring.W.cosine.cwiseAbs2() + ring.W.sine.cwiseAbs2()).colwise().sum().transpose();
   const double limit = still_limit * still_limit * (motion.size() > 0 ? motion.maxCoeff() : 0.0);
+  const double end = std::min(range_of(body), end_of_known(disc, body));
   std::map<int, Diameters> found;
   for (std::size_t column = 0; column < disc.mode_numbers.size(); ++column) {
     const int i = disc.mode_numbers[column] - 1;
     const auto diameters = diameters_on(ring, Eigen::Index(column), limit);
-    if (diameters && is_in_band(body, i)) found.emplace(i, *diameters);
+    if (diameters && is_in_band(body, i, end)) found.emplace(i, *diameters);
   }
   for (const int number : disc.alternating)
-    if (ring.n_nodes % 2 == 0 && is_in_band(body, number - 1))
+    if (ring.n_nodes % 2 == 0 && is_in_band(body, number - 1, end))
       found.emplace(number - 1, Diameters{.seen = ring.n_nodes / 2, .told = ring.n_nodes / 2});
   return found;
 }
@@ -285,6 +286,15 @@ void refuse_aliases(const Disc& disc, const ModalBody& body)
                                          : fmt::format("one of {}", diameters.seen),
         most, 2 * most + 2, 2 * most + 2));
   }
+}
+
+double end_of_known(const Disc& disc, const ModalBody& body)
+{
+  constexpr double same = 1e-3;
+  if (disc.errors.range > 0.0) return (1.0 + same) * disc.errors.range;
+  const int n_all = body.preparation.n_constrained_modes;
+  const bool has_all = n_all > 0 && body.n_modes() >= n_all;
+  return has_all ? 0.5 * disc.omega.maxCoeff() : std::numeric_limits<double>::infinity();
 }
 
 double range_of(const ModalBody& body)

@@ -22,6 +22,10 @@ struct ModeParts {
 /// limit of its tolerance, or its highest other mode. Infinite for bodies without interface modes.
 double range_of(const mbs_export::ModalBody& body);
 
+/// The end of what a reduction knows of its modes, rad/s: the certified frequencies or, of a body
+/// of all modes, half of the highest one; infinite where neither is known.
+double end_of_known(const Disc& disc, const mbs_export::ModalBody& body);
+
 /// Assigns a role to each mode.
 /// @param disc  the disc of `body` with all modes
 /// @throws chladni::Error as make_disc.
