@@ -4,7 +4,7 @@
 
 namespace chladni::mbs_export {
 
-using Eigen::Index, Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;
+using Eigen::MatrixXd, Eigen::Vector3d;
 
 const std::array<std::pair<int, int>, 6> product_axes{
     {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
@@ -37,31 +37,6 @@ MatrixXd gyroscopic_matrix(const MassIntegrals& integrals, const Vector3d& e)
     G += 2.0 * e[k] * (S.transpose() - S);
   }
   return G;
-}
-
-MatrixXd centrifugal_matrix(const MassIntegrals& integrals, const Vector3d& e)
-{
-  // (e x phi_i) . (e x phi_j) = phi_i . phi_j - (e . phi_i) (e . phi_j) for |e| = 1
-  MatrixXd Z = MatrixXd::Zero(integrals.displacement.cols(), integrals.displacement.cols());
-  for (int k = 0; k < 3; ++k) {
-    for (int l = 0; l < 3; ++l) {
-      const double weight = (k == l ? 1.0 : 0.0) - e[k] * e[l];
-      if (weight != 0.0) Z += weight * displacement_product(integrals, k, l);
-    }
-  }
-  return Z;
-}
-
-VectorXd centrifugal_load(const MassIntegrals& integrals, const Vector3d& e)
-{
-  VectorXd z = VectorXd::Zero(integrals.displacement.cols());
-  for (Index k = 0; k < 3; ++k) {
-    for (Index l = 0; l < 3; ++l) {
-      const double weight = (k == l ? 1.0 : 0.0) - e[k] * e[l];
-      z += weight * integrals.position_displacement.row(3 * k + l).transpose();
-    }
-  }
-  return z;
 }
 
 }  // namespace chladni::mbs_export

@@ -33,11 +33,4 @@ MassIntegrals in_coordinates(const MassIntegrals& integrals, const Eigen::Matrix
 /// vector e through the origin has the Coriolis forces -Omega G q' in the frame that turns with it.
 Eigen::MatrixXd gyroscopic_matrix(const MassIntegrals& integrals, const Eigen::Vector3d& e);
 
-/// Z_ij = int (e x phi_i) . (e x phi_j) dm: a spin Omega about e adds the force Omega^2 Z q. The
-/// stiffening by the membrane stress of the spin is not included.
-Eigen::MatrixXd centrifugal_matrix(const MassIntegrals& integrals, const Eigen::Vector3d& e);
-
-/// z_i = int phi_i . (x - (x . e) e) dm: a spin Omega about e adds the constant force Omega^2 z.
-Eigen::VectorXd centrifugal_load(const MassIntegrals& integrals, const Eigen::Vector3d& e);
-
 }  // namespace chladni::mbs_export

@@ -27,8 +27,8 @@ SparseRows sparse(const MatrixXd& A)
   return rows;
 }
 
-/// A sector of four nodes: two of a ring, at the cut edges, one inside, and one on the axis. Its
-/// stiffness is any definite matrix.
+/// A sector of six nodes: two of a ring and two others at the cut edges, one in the middle, which
+/// may be of the ring too, and one on the axis. Its stiffness is any definite matrix.
 struct AnySector {
   SectorDofs dofs{.count = count,
                   .n_blocks = 6,
@@ -38,7 +38,7 @@ struct AnySector {
                   .rings = {}};
   MatrixXd K;
 
-  explicit AnySector(unsigned seed)
+  explicit AnySector(unsigned seed, int ring_nodes_of_sector = 1)
   {
     std::srand(seed);
     const MatrixXd A = MatrixXd::Random(36, 36);
@@ -46,9 +46,12 @@ struct AnySector {
     const double step = 2.0 * std::numbers::pi / count;
     dofs.rings.push_back({.blocks = {0, 1},
                           .angles = {0.2, 0.2 + step},
-                          .n_nodes = count,
+                          .n_nodes = ring_nodes_of_sector * count,
                           .first_angle = 0.2,
-                          .up_to = count / 2});
+                          .up_to = ring_nodes_of_sector * count / 2});
+    if (ring_nodes_of_sector == 1) return;
+    dofs.rings.back().blocks.push_back(4);
+    dofs.rings.back().angles.push_back(0.2 + 0.5 * step);
   }
 
   /// The whole body: blocks 0, 2, 4 of each sector in turn, in axes that turn with it, then the
@@ -105,19 +108,42 @@ MatrixXd unit_of_sector()
 
 TEST(HarmonicCoordinates, GiveAllEigenvaluesOfTheWholeBodyAndNoOthers)
 {
-  const AnySector sector(3);
-  VectorXd expected = eigenvalues(sector.whole());
-  std::vector<double> found;
-  for (int n = 0; n < n_harmonics(count); ++n) {
-    const HarmonicCoordinates c = harmonic_coordinates(sector.dofs, n);
-    const VectorXd lambda = eigenvalues(MatrixXd(harmonic_form(sparse(sector.K), c)),
-                                        MatrixXd(harmonic_form(sparse(unit_of_sector()), c)));
-    found.insert(found.end(), lambda.begin(), lambda.end());
+  for (const int ring_nodes_of_sector : {1, 2}) {
+    const AnySector sector(3, ring_nodes_of_sector);
+    VectorXd expected = eigenvalues(sector.whole());
+    std::vector<double> found;
+    for (int n = 0; n < n_harmonics(count); ++n) {
+      const HarmonicCoordinates c = harmonic_coordinates(sector.dofs, n);
+      const VectorXd lambda = eigenvalues(MatrixXd(harmonic_form(sparse(sector.K), c)),
+                                          MatrixXd(harmonic_form(sparse(unit_of_sector()), c)));
+      found.insert(found.end(), lambda.begin(), lambda.end());
+    }
+    std::ranges::sort(found);
+    ASSERT_EQ(std::ssize(found), expected.size());
+    for (Index i = 0; i < expected.size(); ++i)
+      EXPECT_NEAR(found[static_cast<std::size_t>(i)] / expected[i], 1.0, 1e-11) << i;
   }
-  std::ranges::sort(found);
-  ASSERT_EQ(std::ssize(found), expected.size());
-  for (Index i = 0; i < expected.size(); ++i)
-    EXPECT_NEAR(found[static_cast<std::size_t>(i)] / expected[i], 1.0, 1e-11) << i;
+}
+
+/// The highest harmonic of an even ring, which changes its sign from node to node, has no other one
+/// beside it: it is a cosine from the first node on, wherever that is.
+TEST(HarmonicCoordinates, HaveOrthonormalHarmonicsOfTheirRings)
+{
+  for (const int ring_nodes_of_sector : {1, 2}) {
+    const AnySector sector(3, ring_nodes_of_sector);
+    int n_found = 0;
+    for (int n = 0; n < n_harmonics(count); ++n) {
+      const HarmonicCoordinates c = harmonic_coordinates(sector.dofs, n);
+      std::vector<int> of_ring;
+      for (const Master& master : c.masters)
+        if (master.ring == 0) of_ring.push_back(master.coordinate);
+      const MatrixXd I = MatrixXd(harmonic_form(sparse(unit_of_sector()), c))(of_ring, of_ring);
+      const Index size = std::ssize(of_ring);
+      EXPECT_LT((I - MatrixXd::Identity(size, size)).norm(), 1e-14) << n;
+      n_found += static_cast<int>(size);
+    }
+    EXPECT_EQ(n_found, 6 * ring_nodes_of_sector * count);
+  }
 }
 
 TEST(HarmonicCoordinates, AreTurnedByAQuarterWithoutAChangeOfEnergy)

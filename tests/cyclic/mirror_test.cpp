@@ -108,6 +108,28 @@ TEST(Mirror, IsNotSeenWhereOneEntryOrOnePositionDiffers)
   EXPECT_FALSE(find_mirror(curved.dofs, curved.positions, {&K}));
 }
 
+TEST(Mirror, IsNotSeenWhereItTakesARingToOtherNodes)
+{
+  const MirroredSector sector(3);
+  const SparseRows K = sector.form();
+  const auto with_ring = [&](std::vector<int> blocks) {
+    SectorDofs dofs = sector.dofs;
+    std::vector<double> angles;
+    for (const int block : blocks)
+      angles.push_back(std::atan2(sector.positions(block, 1), sector.positions(block, 0)));
+    dofs.rings.push_back({.blocks = std::move(blocks),
+                          .angles = angles,
+                          .n_nodes = count,
+                          .first_angle = angles.front(),
+                          .up_to = 1});
+    return find_mirror(dofs, sector.positions, {&K}).has_value();
+  };
+  // Nodes 5 and 6 are each other's image, 3 and 4 at the cut edges too.
+  EXPECT_FALSE(with_ring({5}));
+  EXPECT_FALSE(with_ring({6}));
+  EXPECT_TRUE(with_ring({3, 4}));
+}
+
 TEST(SymmetricMotions, HaveEachEigenvalueOnceOfThoseThatAreDouble)
 {
   MirroredSector sector(4);

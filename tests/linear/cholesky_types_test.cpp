@@ -15,6 +15,7 @@
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/random_block.hpp"
 #include "linear/kernels/sparse_product.hpp"
+#include "matrices.hpp"
 
 namespace chladni::linear {
 namespace {
@@ -280,6 +281,27 @@ PivotSigns pivot_signs_of_chain(double shift)
   SupernodalFactor factor(PETSC_COMM_WORLD);
   factor.analyze(A);
   return factor.pivot_signs(A, size);
+}
+
+/// A dense matrix is one front, which stands in memory as L with D and as L D while it is stored.
+TEST(SupernodalFactor, ForecastsTheFrontOfADenseMatrixTwiceBesideItsEntries)
+{
+  if (petsc::size(PETSC_COMM_WORLD) > 1) GTEST_SKIP() << "ranks share the front";
+  constexpr PetscInt n = 96;
+  const petsc::Matrix A = testing::matrix(n, n, [](PetscInt i) {
+    testing::Row row;
+    for (PetscInt j = 0; j < n; ++j) row.emplace_back(j, i == j ? 2.0 * n : 1.0);
+    return row;
+  });
+  SupernodalFactor factor(PETSC_COMM_WORLD);
+  factor.analyze(A);
+  const CholeskyFactor::Memory need = factor.forecast();
+  const double front_MiB = double(n) * n * sizeof(double) / 1048576.0;
+  EXPECT_NEAR(need.factorization_MiB - need.entries_MiB, 2.0 * front_MiB, 1e-9 * front_MiB);
+  EXPECT_DOUBLE_EQ(factor.size().entries, 0.5 * n * (n + 1));
+  // Tiles of six rows have the triangle and what fills them up.
+  EXPECT_GT(need.entries_MiB, 0.5 * front_MiB);
+  EXPECT_LT(need.entries_MiB, 0.5 * front_MiB * (1.0 + 8.0 / n));
 }
 
 TEST(PivotSigns, TellTheInertiaAndWhatItIsWorth)

@@ -94,21 +94,58 @@ TEST_P(InLanes, AProductIsRightForColumnsOfDifferentParts)
   }
 }
 
-TEST(SparseProduct, SeesThatAMatrixGotOtherEntries)
+/// Blocks of three rows that have the same columns, coupled to nothing else.
+petsc::Matrix blocks_of_three(PetscInt n)
 {
-  constexpr PetscInt n = 60;
-  const petsc::Matrix A = testing::diagonal(n, [](PetscInt i) { return 1.0 + i; });
-  const MatrixXd X = mixed_columns(n, 5);
-  sparse_product(A, on_ranks(A, X));
+  return testing::matrix(n, 4, [n](PetscInt i) {
+    testing::Row row;
+    for (PetscInt j = i - i % 3; j < std::min(n, i - i % 3 + 3); ++j)
+      row.emplace_back(j, i == j ? 5.0 : 1.0 + double(i + j) / double(n));
+    return row;
+  });
+}
+
+/// Couples the second row of each rank with its last one: rows that were alike are no longer, and
+/// parts that nothing coupled are one.
+void couple_ends_of_each_rank(Mat A)
+{
   petsc::check(MatSetOption(A, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(A, &first, &last));
-  if (first == 0) petsc::check(MatSetValue(A, 0, n - 1, 5.0, INSERT_VALUES));
-  if (last == n) petsc::check(MatSetValue(A, n - 1, 0, 5.0, INSERT_VALUES));
+  petsc::check(MatSetValue(A, first + 1, last - 1, 7.0, INSERT_VALUES));
+  petsc::check(MatSetValue(A, last - 1, first + 1, 7.0, INSERT_VALUES));
   testing::finish(A);
-  const MatrixXd found =
-      inner_product(on_ranks(A, MatrixXd::Identity(n, n)), sparse_product(A, on_ranks(A, X)));
-  EXPECT_LT((found - replicate(A) * X).norm(), 1e-12);
+}
+
+/// Columns that are zero but in the last row of each rank: only what is coupled with it answers.
+MatrixXd last_rows_of_ranks(Mat A, PetscInt n_columns)
+{
+  PetscInt n = 0;
+  const PetscInt* ranges = nullptr;
+  petsc::check(MatGetSize(A, &n, nullptr));
+  petsc::check(MatGetOwnershipRanges(A, &ranges));
+  MatrixXd X = MatrixXd::Zero(n, n_columns);
+  for (int rank = 0; rank < petsc::size(petsc::communicator(A)); ++rank)
+    for (PetscInt j = 0; j < n_columns; ++j) X(ranges[rank + 1] - 1, j) = 1.0 + double(j);
+  return X;
+}
+
+TEST(SparseProduct, SeesThatAMatrixGotOtherEntries)
+{
+  constexpr PetscInt n = 96;  // twelve rows on the last of eight ranks
+  const petsc::Matrix I = testing::diagonal(n, [](PetscInt) { return 1.0; });
+  const auto all_rows = [&](Mat Y) {
+    return inner_product(on_ranks(I, MatrixXd::Identity(n, n)), Y);
+  };
+  const petsc::Matrix A = blocks_of_three(n);
+  for (const bool is_coupled : {false, true}) {
+    if (is_coupled) couple_ends_of_each_rank(A);
+    for (const MatrixXd& X : {last_rows_of_ranks(A, 5), last_rows_of_ranks(A, 12),
+                              MatrixXd(MatrixXd::Random(n, 9)), mixed_columns(n, 5)}) {
+      const MatrixXd found = all_rows(sparse_product(A, on_ranks(A, X)));
+      EXPECT_LT((found - replicate(A) * X).norm(), 1e-12 * X.norm()) << is_coupled;
+    }
+  }
 }
 
 TEST(AddProduct, LeavesOutColumnsThatNothingIsTakenOf)

@@ -53,29 +53,6 @@ TEST(GyroscopicMatrix, TurnsTheImpulseOfARigidMotion)
   EXPECT_NEAR(G_z(3, 4), -2.0 * wheel.mass_integrals->second(2, 2), 1e-15);
 }
 
-TEST(CentrifugalMatrix, IsThatOfTheMassWhereTheMotionIsAcrossTheAxis)
-{
-  const ReducedSystem wheel = test::wheel();
-  const auto R = rigid_body_vectors(wheel, Vector3d::Zero());
-  const MatrixXd Z =
-      R.transpose() * centrifugal_matrix(*wheel.mass_integrals, Vector3d::UnitZ()) * R;
-  const double mass = wheel.mass_integrals->mass;
-  EXPECT_NEAR(Z(0, 0), mass, 1e-14);
-  EXPECT_NEAR(Z(2, 2), 0.0, 1e-14);
-  const Eigen::Matrix3d& second = wheel.mass_integrals->second;
-  EXPECT_NEAR(Z(5, 5), second(0, 0) + second(1, 1), 1e-15);
-}
-
-TEST(CentrifugalLoad, OfARigidBodyPullsAtItsCentre)
-{
-  const ReducedSystem wheel = test::wheel();
-  const auto R = rigid_body_vectors(wheel, Vector3d::Zero());
-  const Eigen::VectorXd z = R.transpose() * centrifugal_load(*wheel.mass_integrals, axis);
-  const Vector3d pull = wheel.mass_integrals->first - axis * axis.dot(wheel.mass_integrals->first);
-  EXPECT_LT((z.head<3>() - pull).norm(), 1e-15);
-  EXPECT_LT(std::abs(axis.dot(z.tail<3>())), 1e-16);  // no moment about the axis itself
-}
-
 TEST(MassIntegrals, GoWithTheModesOfABody)
 {
   const ModalBody body = make_body(test::wheel(), {});

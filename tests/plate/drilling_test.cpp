@@ -121,6 +121,21 @@ TEST(DrillingAxes, EndWhereOtherNodesFollow)
     EXPECT_TRUE(axes.row(node).isZero(0.0));
 }
 
+TEST(DrillingAxes, EndAtANodeOfTheShellThatOthersFollow)
+{
+  // What the followers bend resists the turn of the node that they follow about its normal.
+  const mesh::Mesh mesh = plate();
+  const DofMap dofs = map_of(mesh, {testing::link("corner", "centre")});
+  const Eigen::MatrixX3d axes = drilling_axes(mesh, dofs);
+  const int followed = mesh::find_group(mesh, "centre").nodes.front();
+  ASSERT_FALSE(dofs.is_dependent(followed));
+  EXPECT_TRUE(axes.row(followed).isZero(0.0));
+  EXPECT_FALSE(drilling_axes(mesh, map_of(mesh, {})).row(followed).isZero(0.0));
+  const PointMass flywheel{"centre", 1.0, {0, 0, 1e-3}};
+  EXPECT_EQ(error_of([&] { point_elements(mesh, {.masses = {&flywheel, 1}}, dofs); }), "");
+  EXPECT_TRUE(names_the_rotation(complaint(flywheel)));
+}
+
 TEST(Drilling, IsNoPlaceForInertia)
 {
   EXPECT_TRUE(names_the_rotation(complaint(PointMass{"corner", 1.0, {0, 0, 1e-3}})));
@@ -128,6 +143,14 @@ TEST(Drilling, IsNoPlaceForInertia)
       names_the_rotation(complaint(PointMass{.at = "corner", .mass = 1.0, .offset = {0.1, 0, 0}})));
   EXPECT_EQ(complaint(PointMass{"corner", 1.0, {1e-3, 1e-3, 0}}), "");
   EXPECT_EQ(complaint(PointMass{.at = "corner", .mass = 1.0, .offset = {0, 0, 0.1}}), "");
+  // A mass on an arm that leans by the angle a has sin(a)^2 / 2 of its inertia about the normal,
+  // which is as exact as 0.01 rad.
+  for (const double a : {0.002, 0.01})
+    EXPECT_EQ(complaint(PointMass{.at = "corner", .mass = 1.0, .offset = {0.1 * a, 0, 0.1}}), "");
+  for (const double a : {0.02, 0.1}) {
+    EXPECT_TRUE(names_the_rotation(
+        complaint(PointMass{.at = "corner", .mass = 1.0, .offset = {0.1 * a, 0, 0.1}})));
+  }
 }
 
 TEST(Drilling, IsNoPlaceForSprings)

@@ -149,8 +149,10 @@ MassLoad in_plane()
 TEST(GeometricStiffness, OfARigidRotationIsTheSecondOrderOfTheLoadsWork)
 {
   // What differs is the error of the mesh.
+  const PointMass at_hub{.at = "hub", .mass = 0.3, .offset = {0.04, 0.02, 0.03}};
+  const PointMass at_followers{.at = "inner_edge", .mass = 0.02, .offset = {0.0, 0.01, 0.02}};
   for (const double offset : {0.0, 0.012}) {
-    const HeldDisc disc(offset, {{.at = "hub", .mass = 0.3, .offset = {0.04, 0.02, 0.03}}});
+    const HeldDisc disc(offset, {at_hub, at_followers});
     const MassMoments moments = mass_moments(disc.model());
     for (const MassLoad& load : {spin_about_z(), in_plane()}) {
       const petsc::Matrix K = disc.stiffness(load);

@@ -14,9 +14,11 @@
 
 #include "assembly_parts.hpp"
 #include "common/error.hpp"
+#include "squeal/assembly/face.hpp"
 #include "squeal/assembly/joints.hpp"
 #include "squeal/assembly/node_areas.hpp"
 #include "squeal/models/assembly_brake.hpp"
+#include "tests/squeal/turning_discs.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -49,13 +51,20 @@ TEST(Assembly, OfRigidPlatesIsADiscBetweenPads)
                      .about_axial = RotarySuspension{plate.inertia[2], at(5)}};
   SquealOptions options = reference_options();
   options.pads = {pad};
-  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3(), kirchhoff_2()}));
-  const Eigen::VectorXcd expected = spectrum(state_matrix(disc, options, speed));
-  const Eigen::VectorXcd found = spectrum(matrix_of(two_plates(), bodies_of_two_plates()));
-  ASSERT_EQ(found.size(), expected.size());
-  // Rounding of eigenvalues of 1e4 1/s, of which pairs that touch keep half the digits.
-  EXPECT_LT(largest_distance(expected, found), 1e-7);
-  EXPECT_LT(largest_distance(found, expected), 1e-7);
+  std::vector<mbs_export::ModalBody> bodies = bodies_of_two_plates();
+  Eigen::Matrix4d S_xy = Eigen::Matrix4d::Zero();  // of the Coriolis forces of each pair
+  S_xy(0, 1) = S_xy(2, 3) = 0.2;
+  for (const bool has_integrals : {false, true}) {
+    if (has_integrals) bodies[0].mass_integrals = integrals_with(S_xy);
+    const InertialDisc disc = inertial_disc(disc_on_ring(bodies[0], "track", {}));
+    EXPECT_EQ(disc.G.isZero(0.0), !has_integrals);
+    const Eigen::VectorXcd expected = spectrum(state_matrix(disc, options, speed));
+    const Eigen::VectorXcd found = spectrum(matrix_of(two_plates(), bodies));
+    ASSERT_EQ(found.size(), expected.size());
+    // Rounding of eigenvalues of 1e4 1/s, of which pairs that touch keep half the digits.
+    EXPECT_LT(largest_distance(expected, found), 1e-7);
+    EXPECT_LT(largest_distance(found, expected), 1e-7);
+  }
 }
 
 TEST(Assembly, DoesNotDependOnWhereTheBrakeStandsAroundTheDisc)
@@ -201,6 +210,30 @@ TEST(Joints, AreWithoutForceInTwoPartsThatTurnAsOne)
   EXPECT_EQ(all.B.rows(), 0);
 }
 
+TEST(Joints, JoinEachNodeOnceWhereTwoHaveTheSameNearestOne)
+{
+  // The second node is nearest to two of the first part, and the third one to none.
+  const auto at_x = [](const std::vector<double>& x) {
+    std::vector<Eigen::Vector3d> nodes;
+    for (const double one : x) nodes.emplace_back(one, 0.0, 0.0);
+    return plate_body(plate, nodes);
+  };
+  const std::vector<Part> parts{placed(part_at("upper", 0.0), at_x({0.00, 0.02, 0.03})),
+                                placed(part_at("lower", 0.0), at_x({0.00, 0.022, 0.06}))};
+  JointOptions joint{
+      .ends = {PartNodes{"upper", "face"}, PartNodes{"lower", "face"}}, .rigid = {2}, .span = 0.05};
+  const Eigen::MatrixXd B = joined(parts, std::vector{joint}).B;
+  // In z each row has the rotation about y of both nodes at the point between them: for a plate
+  // that turns as one, the height of that point.
+  ASSERT_EQ(B.rows(), 3);
+  const double about_y = 1.0 / std::sqrt(plate.inertia[1]);
+  const std::array<double, 3> between{0.0, 0.021, 0.045};
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    EXPECT_NEAR(B(i, 4), -about_y * between[std::size_t(i)], 1e-12) << i;
+    EXPECT_NEAR(B(i, 6 + 4), about_y * between[std::size_t(i)], 1e-12) << i;
+  }
+}
+
 TEST(Joints, ThatAskForTheSameTwiceAskOnce)
 {
   // Nodes of two plates that move alike in all components follow what their centres do.
@@ -238,6 +271,29 @@ TEST(Assembly, GivesItsLiningsTheValuesOfASquareMetreTimesTheirArea)
   EXPECT_NEAR(all.linings[1].damping, 2e3 * area, 1e-9);
   EXPECT_NEAR(all.linings[1].preload, 1e6 * area, 1e-6);
   EXPECT_EQ(all.linings[0].stiffness, 6e6);
+}
+
+/// A body's motion between its rings is that of the polynomial through the four that are nearest.
+TEST(Faces, TakeACubicOfTheRadiusFromFourRings)
+{
+  DiscFaces disc{.rings = {}, .planes = {-half_disc, half_disc}};
+  for (const double radius : {0.11, 0.12, 0.13, 0.145, 0.16})
+    disc.rings.push_back({.name = "", .radius = radius, .height = 0.0});
+  std::vector<Eigen::Vector3d> face;
+  const std::vector<double> radii{0.112, 0.125, 0.138, 0.155};
+  for (const double r : radii) face.emplace_back(r - ring_radius, 0.0, 0.0);
+  const Part part = placed(part_at("upper", half_disc + height), plate_body(plate, face));
+  const std::vector<FaceNode> nodes = face_nodes(lining_of("upper"), part, disc, "contact[1]");
+  ASSERT_EQ(nodes.size(), 4u);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    EXPECT_LE((nodes[i].ring_parts.array() != 0.0).count(), 4) << i;
+    for (const int power : {0, 1, 2, 3}) {
+      double sum = 0.0;
+      for (std::size_t j = 0; j < disc.rings.size(); ++j)
+        sum += nodes[i].ring_parts[Eigen::Index(j)] * std::pow(disc.rings[j].radius, power);
+      EXPECT_NEAR(sum / std::pow(radii[i], power), 1.0, 1e-12) << i << " " << power;
+    }
+  }
 }
 
 TEST(Assembly, VariesWhatAllLiningsHave)

@@ -10,6 +10,7 @@
 
 #include "assembly_parts.hpp"
 #include "common/error.hpp"
+#include "squeal/condensation/condensation_error.hpp"
 #include "squeal/models/assembly_brake.hpp"
 
 namespace chladni::squeal {
@@ -96,6 +97,43 @@ TEST(Condensation, KeepsOscillationsOfTheBandThatHardlyOscillate)
     EXPECT_LE(distance(bodies, found.bodies, at_speed, 0.6, 1500.0), 3.0 * tolerance)
         << at_speed << " rad/s";
   }
+}
+
+/// An oscillator with the eigenvalues lambda and their conjugates.
+Eigen::MatrixXd oscillators(const std::vector<std::complex<double>>& lambda)
+{
+  const auto n = 2 * std::ssize(lambda);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < std::ssize(lambda); ++i) {
+    const std::complex<double>& one = lambda[std::size_t(i)];
+    A.block<2, 2>(2 * i, 2 * i) << one.real(), one.imag(), -one.imag(), one.real();
+  }
+  return A;
+}
+
+TEST(CondensationError, IsOneWhereABrakeSquealsThatDidNot)
+{
+  const CondensationOptions wanted{
+      .tolerance = 0.01, .highest = 2000.0, .speed_from = 1.0, .speed_to = 2.0};
+  const auto error = [&](const std::vector<std::complex<double>>& exact,
+                         const std::vector<std::complex<double>>& found) {
+    const Eigen::VectorXcd lambda =
+        Eigen::Map<const Eigen::VectorXcd>(exact.data(), std::ssize(exact));
+    return condensation_error(lambda, oscillators(found), wanted);
+  };
+  // By half a per cent of the frequency, within the tolerance.
+  EXPECT_EQ(error({{-2.0, 1000.0}}, {{3.0, 1000.0}}).eigenvalues, 1.0);
+  EXPECT_EQ(error({{3.0, 1000.0}}, {{-2.0, 1000.0}}).eigenvalues, 1.0);
+  EXPECT_NEAR(error({{-2.0, 1000.0}}, {{-7.0, 1000.0}}).eigenvalues, 0.005, 1e-6);
+  EXPECT_NEAR(error({{-2.0, 1000.0}}, {{-7.0, 1000.0}}).growth, 5.0, 1e-9);
+  // Less than 1e-4 of the frequency is neither growth nor decay.
+  EXPECT_LT(error({{-0.09, 1000.0}}, {{0.09, 1000.0}}).eigenvalues, 2e-4);
+  // Each has one of its own, and the band no other.
+  EXPECT_EQ(error({{-1.0, 1000.0}, {-1.0, 1001.0}}, {{-1.0, 1000.5}}).eigenvalues, 1.0);
+  EXPECT_EQ(error({{-1.0, 1000.0}}, {{-1.0, 1000.0}, {-1.0, 1500.0}}).eigenvalues, 1.0);
+  const CondensationError beyond = error({{-1.0, 1000.0}}, {{-1.0, 1000.0}, {5.0, 2500.0}});
+  EXPECT_LT(beyond.eigenvalues, 1e-12);
+  EXPECT_EQ(beyond.n_unstable_beyond, 1);
 }
 
 TEST(Condensation, OfADiscStaysAxisymmetric)

@@ -7,6 +7,7 @@
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/mode_parts.hpp"
 #include "squeal/brake/ring_shapes.hpp"
+#include "tests/squeal/turning_discs.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -129,6 +130,24 @@ TEST(Disc, KeepsTheDampingOfTheChosenModes)
   const Disc disc = disc_on_ring(body, "track", list({3, 5}));
   EXPECT_EQ(disc.C(0, 1), body.C(2, 4));
   EXPECT_EQ(disc_on_ring(three_pairs(), "track", nodal(3)).C, Eigen::MatrixXd::Zero(2, 2));
+}
+
+TEST(Disc, HasTheCoriolisTermsOfATranslationInItsPlane)
+{
+  // Modes that move all mass by e_x and by e_y, of unit modal mass: S_xy of (x, y) is 1, and
+  // G_ij = e_i . (e_z x e_j). With q'' + 2 Omega G q' a mass that nothing holds is deflected to its
+  // right where the frame turns to the left.
+  auto body = analytic_body({kirchhoff_3()});
+  body.mass_integrals = integrals_with(Eigen::Matrix2d{{0.0, 1.0}, {0.0, 0.0}});
+  EXPECT_EQ(disc_on_ring(body, "track", {}).G, (Eigen::Matrix2d{{0.0, -1.0}, {1.0, 0.0}}));
+  // Of chosen modes the rows and columns of these.
+  auto pairs = three_pairs();
+  Eigen::MatrixXd S_xy = Eigen::MatrixXd::Zero(6, 6);
+  S_xy(2, 4) = 0.25;
+  pairs.mass_integrals = integrals_with(S_xy);
+  EXPECT_EQ(disc_on_ring(pairs, "track", list({3, 5})).G,
+            (Eigen::Matrix2d{{0.0, -0.25}, {0.25, 0.0}}));
+  EXPECT_TRUE(disc_on_ring(three_pairs(), "track", list({3, 5})).G.isZero(0.0));
 }
 
 TEST(Disc, RefusesWhatTheBodyDoesNotHave)

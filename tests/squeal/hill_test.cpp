@@ -93,6 +93,31 @@ TEST(Hill, AgreesWithFloquetOnHalfAPair)
   expect_floquet(disc_with_half_a_pair(), reference_options());
 }
 
+TEST(Hill, AgreesWithFloquetOnADiscWithCoriolisForces)
+{
+  const Disc disc = disc_with_coriolis(0.0101);
+  expect_floquet(disc, reference_options());
+  // They count: without them the growth is another one.
+  Disc without = disc;
+  without.G.setZero();
+  const auto growth = [](const Disc& of) {
+    return Hill(of, reference_options()).exponents(6.0 * pi).lambda[0].real();
+  };
+  EXPECT_GT(std::abs(growth(disc) - growth(without)), 0.02 * std::abs(growth(disc)));
+}
+
+TEST(Hill, GivesTheEigenvaluesOfAnAxisymmetricDiscWithCoriolisForces)
+{
+  const Disc disc = disc_with_coriolis(0.0);
+  ASSERT_TRUE(find_inertial_disc(disc));
+  for (const double speed : {pi, 6.0 * pi}) {
+    const Eigen::VectorXcd expected =
+        state_matrix(inertial_disc(disc), reference_options(), speed).eigenvalues();
+    for (const Complex lambda : Hill(disc, reference_options()).exponents(speed).lambda)
+      EXPECT_LT((expected.array() - lambda).abs().minCoeff(), 1e-8) << speed;
+  }
+}
+
 TEST(Hill, AgreesWithFloquetWherePadsMoveToo)
 {
   SquealOptions options = reference_options();

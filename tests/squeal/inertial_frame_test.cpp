@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstdlib>
 #include <utility>
 
 #include "common/error.hpp"
 #include "linear/dense/orthogonal_factor.hpp"
 #include "references/squeal/analytic_body.hpp"
+#include "squeal/brake/rotation_generator.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -76,6 +78,25 @@ TEST(InertialDisc, HasTheCircumferentialDerivativeOfItsShapes)
       (shapes_at(disc, phi + step).W - shapes_at(disc, phi - step).W) / (2 * step);
   // Central difference: error n^3 step^2 / 6.
   EXPECT_LT((difference - disc.D.transpose() * shapes_at(disc, phi).W).norm(), 1e-6);
+}
+
+TEST(RotationGenerator, IsThatOfThePairWhereVanesAddAHighHarmonicThatTurnsTheOtherWay)
+{
+  // cos and sin of phi with a part b of those of 35 phi, of which the sine has the other sign. Each
+  // harmonic d counts by S c / d = i c: S = (1 - b^2 / 35) / (1 + b^2 / 35^2).
+  for (const double b : {0.0, 0.2, 0.5}) {
+    RingHarmonics harmonics{std::vector<Eigen::MatrixXcd>(37, Eigen::MatrixXcd::Zero(2, 1))};
+    const std::complex<double> i(0.0, 1.0);
+    harmonics.c[1].col(0) << 1.0, -i;
+    harmonics.c[35].col(0) << b, b * i;
+    const Eigen::MatrixXd S = rotation_generator(harmonics, Eigen::Vector2d(100.0, 100.0));
+    const double expected = (1.0 - b * b / 35.0) / (1.0 + b * b / 1225.0);
+    EXPECT_NEAR(std::abs(S(0, 1)), expected, 1e-12) << b;
+    EXPECT_EQ(S(0, 1), -S(1, 0));
+    const std::vector<HarmonicSpace> spaces = harmonic_spaces(S);
+    ASSERT_EQ(spaces.size(), 1u);
+    EXPECT_EQ(spaces[0].d, 1) << b;
+  }
 }
 
 TEST(InertialDisc, AveragesTheFrequenciesOfAPairAndTellsTheirSplit)

@@ -6,6 +6,7 @@
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/stability/stability.hpp"
 #include "squeal/transient/transient.hpp"
+#include "tests/squeal/turning_discs.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -32,6 +33,17 @@ TEST(RotationStability, IsThatOfTheEigenvaluesOnAnAxisymmetricDisc)
     const RotationGrowth at = rotation_growth(disc, reference_options(), speed);
     EXPECT_NEAR(at.growth, lambda.real(), 3e-5);
     EXPECT_NEAR(at.frequency_Hz, lambda.imag() / (2.0 * pi), 2.0 * 3.0 * speed / (2.0 * pi));
+  }
+}
+
+TEST(RotationStability, IsThatOfTheEigenvaluesWithCoriolisForcesToo)
+{
+  const Disc disc = disc_with_coriolis(0.0);
+  ASSERT_GT(disc.G.cwiseAbs().maxCoeff(), 0.1);
+  for (const double speed : {4.0 * pi, 12.0 * pi}) {
+    const auto lambda =
+        least_stable_eigenvalue(state_matrix(inertial_disc(disc), reference_options(), speed));
+    EXPECT_NEAR(rotation_growth(disc, reference_options(), speed).growth, lambda.real(), 3e-5);
   }
 }
 

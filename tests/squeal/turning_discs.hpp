@@ -55,4 +55,27 @@ inline Disc mistuned_disc()
   });
 }
 
+/// The mass integrals of a body in which S_xy = int rho phi_x phi_y^T dV alone is not zero.
+inline mbs_export::MassIntegrals integrals_with(const Eigen::MatrixXd& S_xy)
+{
+  mbs_export::MassIntegrals integrals{};
+  integrals.displacement = Eigen::MatrixXd::Zero(3, S_xy.cols());
+  integrals.position_displacement = Eigen::MatrixXd::Zero(9, S_xy.cols());
+  integrals.products.fill(Eigen::MatrixXd::Zero(S_xy.rows(), S_xy.cols()));
+  integrals.products[3] = S_xy;
+  return integrals;
+}
+
+/// Two pairs, the second of them split or not, with Coriolis forces: in each pair by the motion of
+/// its points in the plane, several times that of a brake disc.
+inline Disc disc_with_coriolis(double split)
+{
+  auto body = analytic_body({turned_by(kirchhoff_2(), 0.2), turned_by(kirchhoff_3(), 0.3, split)});
+  Eigen::Matrix4d S_xy = Eigen::Matrix4d::Zero();
+  S_xy(0, 1) = 0.1;
+  S_xy(2, 3) = 0.2;
+  body.mass_integrals = integrals_with(S_xy);
+  return disc_on_ring(body, "track", {});
+}
+
 }  // namespace chladni::squeal::test

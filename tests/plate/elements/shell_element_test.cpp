@@ -115,6 +115,46 @@ TEST_P(PlaneElement, IsTheCurvedOneWhereThatIsFlat)
 
 INSTANTIATE_TEST_SUITE_P(Orders, PlaneElement, ::testing::Values(2, 3, 4));
 
+/// A circular arc that is bent to another radius without stretch and shear, as sections that stay
+/// plane allow: rotation beta = kappa R phi, deflections w = -R^2 kappa (1 - cos phi) outwards and
+/// v = R^2 kappa (phi - sin phi) along the arc; eps = kappa R z / (R + z).
+/// @return the strain energy of the element over that of the closed form,
+///         E kappa^2 R^2 / 2 int z^2 / (R + z) dz of each radian and width
+double bent_arc_energy(int order, double R, double thickness)
+{
+  const Material material{.young = 2.1, .poisson = 0.0, .density = 1.7};
+  const double kappa = 1e-3, half_angle = 0.1, half_width = 0.2;
+  const Eigen::MatrixX2d P = testing::lattice(Shape::quadrilateral, order);
+  ShellNodes nodes{.x = NodeVectors(P.rows(), 3), .D = NodeVectors(P.rows(), 3)};
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(6 * P.rows());
+  for (Eigen::Index k = 0; k < P.rows(); ++k) {
+    const double phi = half_angle * P(k, 0);
+    const Eigen::Vector3d outwards(std::sin(phi), 0.0, std::cos(phi)),
+        along(std::cos(phi), 0.0, -std::sin(phi));
+    nodes.x.row(k) = (R * outwards + half_width * P(k, 1) * Eigen::Vector3d::UnitY()).transpose();
+    nodes.D.row(k) = (0.5 * thickness * outwards).transpose();
+    u.segment<3>(6 * k) =
+        R * R * kappa * ((std::cos(phi) - 1.0) * outwards + (phi - std::sin(phi)) * along);
+    u.segment<3>(6 * k + 3) = kappa * R * phi * Eigen::Vector3d::UnitY();  // outwards to along
+  }
+  const MatrixXd K = shell_matrices(Shape::quadrilateral, order, nodes, material).K;
+  const double moment = R * R * std::log((R + 0.5 * thickness) / (R - 0.5 * thickness)) -
+                        R * thickness;  // int z^2 / (R + z) dz
+  const double exact =
+      material.young * std::pow(kappa * R, 2) * moment * (2.0 * half_angle) * (2.0 * half_width);
+  return u.dot(K * u) / exact;
+}
+
+TEST(ShellElement, OfAThickArcHasTheEnergyOfPlaneSections)
+{
+  // Two points through the thickness leave a part of 7 % of (t / R)^2.
+  for (const double t_over_R : {0.1, 0.3, 0.5})
+    for (const int order : {3, 4}) {
+      EXPECT_NEAR(bent_arc_energy(order, 1.0, t_over_R), 1.0, 0.1 * t_over_R * t_over_R)
+          << t_over_R << " " << order;
+    }
+}
+
 TEST(ShellElement, RefusesAnOrderThatDoesNotExist)
 {
   EXPECT_THROW(check_element_exists(Shape::triangle, 4), Error);
