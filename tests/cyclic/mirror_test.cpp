@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "common/eigen_every.hpp"
+#include "cyclic/harmonic_model.hpp"
 #include "cyclic/harmonic_modes.hpp"
 #include "cyclic/symmetric_half.hpp"
 #include "linear/dense/dense_solvers.hpp"
@@ -220,6 +222,111 @@ TEST(SymmetricHalf, MovesTheSectorAsTheWholeHarmonicDoes)
       master_halves(c, half));
   EXPECT_LT((motion.x - MatrixXd(c.X)(every, whole_rows)).norm(), 1e-14);
   EXPECT_LT((motion.y - MatrixXd(c.Y)(every, whole_rows)).norm(), 1e-14);
+}
+
+TEST(SymmetricHalf, HasACertificateOfWhichTheWholeHasEachEigenvalueTwice)
+{
+  reduce::Certificate half;
+  half.lambda = {1.0, 4.0};
+  half.estimates = {1e-3, 2e-3};
+  half.n_zero = 3;
+  const reduce::Certificate whole = unfolded_certificate(half);
+  EXPECT_EQ(whole.lambda, (std::vector{1.0, 1.0, 4.0, 4.0}));
+  EXPECT_EQ(whole.estimates, (std::vector{1e-3, 1e-3, 2e-3, 2e-3}));
+  EXPECT_EQ(whole.n_zero, 6);
+}
+
+/// A harmonic reduced to its masters and all modes besides, which is no approximation.
+HarmonicModel completely_reduced(const SectorMatrices& matrices, const HarmonicCoordinates& c)
+{
+  const auto n_solved = c.symmetric.size() > 0 ? c.n() / 2 : c.n();
+  const auto n_masters = std::ssize(c.masters) / (c.symmetric.size() > 0 ? 2 : 1);
+  reduce::PhaseListener silent;
+  return reduce_harmonic(
+      matrices, c, {.basis = {.modes = int(n_solved - n_masters)}},
+      [](const Master&) { return false; }, silent);
+}
+
+TEST(HarmonicModel, OfAllModesIsTheHarmonicWithAndWithoutItsMirror)
+{
+  const MirroredSector stiff(7), heavy(8);
+  const SectorMatrices matrices{.K = stiff.form(), .M = heavy.form()};
+  SectorDofs mirrored = stiff.dofs;
+  mirrored.mirror = find_mirror(stiff.dofs, stiff.positions, {&matrices.K, &matrices.M});
+  ASSERT_TRUE(mirrored.mirror);
+  std::vector<int> all(48);
+  std::iota(all.begin(), all.end(), 0);
+  for (const SectorDofs* dofs : {&stiff.dofs, &std::as_const(mirrored)}) {
+    for (const int order : {0, 1, 2, 3}) {
+      const HarmonicCoordinates c = harmonic_coordinates(*dofs, order);
+      const HarmonicModel model = completely_reduced(matrices, c);
+      ASSERT_EQ(model.K.rows(), c.n());
+      const auto spectrum = [](const MatrixXd& K, const MatrixXd& M) -> VectorXd {
+        return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(K, M, Eigen::EigenvaluesOnly)
+            .eigenvalues();
+      };
+      const VectorXd expected =
+          spectrum(MatrixXd(harmonic_form(matrices.K, c)), MatrixXd(harmonic_form(matrices.M, c)));
+      const VectorXd found = spectrum(model.K, model.M);
+      // Residuals of 1e-9 of the modes.
+      EXPECT_LT((found - expected).cwiseQuotient(expected).cwiseAbs().maxCoeff(), 1e-9) << order;
+      for (std::size_t k = 0; k < model.certificate.lambda.size(); ++k)
+        EXPECT_NEAR(model.certificate.lambda[k] / expected[Index(k)], 1.0, 1e-9) << order;
+      // What the model says of the sector's motion has the energy of the model.
+      const SectorMotion motion = sector_motion(model, all);
+      for (const auto& [form, of_model] :
+           {std::pair{&matrices.K, &model.K}, std::pair{&matrices.M, &model.M}}) {
+        const MatrixXd energy = c.weight * (motion.x.transpose() * (*form * motion.x) +
+                                            motion.y.transpose() * (*form * motion.y));
+        EXPECT_LT((energy - *of_model).norm(), 1e-9 * of_model->norm()) << order;
+      }
+    }
+  }
+}
+
+TEST(HarmonicModel, CommutesWithAQuarterTurnToTheLastBit)
+{
+  const MirroredSector stiff(7), heavy(8);
+  const SectorMatrices matrices{.K = stiff.form(), .M = heavy.form()};
+  SectorDofs mirrored = stiff.dofs;
+  mirrored.mirror = find_mirror(stiff.dofs, stiff.positions, {&matrices.K, &matrices.M});
+  for (const SectorDofs* dofs : {&stiff.dofs, &std::as_const(mirrored)}) {
+    const HarmonicCoordinates c = harmonic_coordinates(*dofs, 2);
+    const HarmonicModel model = completely_reduced(matrices, c);
+    const Index n = model.K.rows(), n_m = model.n_masters();
+    MatrixXd J = MatrixXd::Zero(n, n);
+    for (Index i = 0; i < n_m; ++i) {
+      const auto row = std::size_t(c.masters[std::size_t(i)].coordinate);
+      for (Index j = 0; j < n_m; ++j)
+        if (c.masters[std::size_t(j)].coordinate == c.partner[row]) J(i, j) = c.sign[row];
+    }
+    for (Index k = n_m; k < n; k += 2) {
+      J(k, k + 1) = -1.0;
+      J(k + 1, k) = 1.0;
+      EXPECT_EQ(model.omega[k - n_m], model.omega[k + 1 - n_m]);
+    }
+    EXPECT_EQ((J * J + MatrixXd::Identity(n, n)).norm(), 0.0);
+    for (const MatrixXd* A : {&model.K, &model.M})
+      EXPECT_EQ((J.transpose() * *A * J - *A).cwiseAbs().maxCoeff(), 0.0);
+  }
+}
+
+TEST(HarmonicModel, KeepsNoModeWhereAllLieAboveTheCutoff)
+{
+  const MirroredSector stiff(7), heavy(8);
+  const SectorMatrices matrices{.K = stiff.form(), .M = heavy.form()};
+  const HarmonicCoordinates c = harmonic_coordinates(stiff.dofs, 1);
+  const double lowest = completely_reduced(matrices, c).omega[0] / (2.0 * std::numbers::pi);
+  reduce::PhaseListener silent;
+  const auto n_modes = [&](double cutoff_Hz) {
+    const HarmonicModel model = reduce_harmonic(
+        matrices, c, {.basis = {.cutoff_Hz = cutoff_Hz}}, [](const Master&) { return false; },
+        silent);
+    EXPECT_EQ(model.K.rows(), model.n_masters() + model.omega.size());
+    return model.omega.size();
+  };
+  EXPECT_EQ(n_modes(0.9 * lowest), 0);
+  EXPECT_GE(n_modes(1.01 * lowest), 2);
 }
 
 }  // namespace

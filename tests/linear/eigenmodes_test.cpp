@@ -291,5 +291,22 @@ TEST(LowestEigenmodes, MissNoneOfMoreEqualOnesThanABlockHas)
   EXPECT_NEAR(modes.lambda[n_chains - 1] / modes.lambda[0], 1.0, 1e-10);
 }
 
+TEST(FirstEigenvalue, IsThatOfTheFirstElasticModeOfAFreeChainFromAbove)
+{
+  for (const int n : {2, 5, 40}) {
+    const MatrixXd R = VectorXd::Constant(n, 1.0 / std::sqrt(n));
+    const double exact = std::pow(2.0 * std::sin(std::numbers::pi / (2 * n)), 2);
+    const double found = first_eigenvalue(free_chain(n), MatrixXd::Identity(n, n), R);
+    EXPECT_GE(found, exact * (1.0 - 1e-12)) << n;
+    EXPECT_LE(found, exact * 1.01) << n;
+  }
+}
+
+TEST(FirstEigenvalue, IsNoneOfABodyThatDoesNotBend)
+{
+  const MatrixXd one = MatrixXd::Identity(1, 1);
+  EXPECT_EQ(first_eigenvalue(0.0 * one, one, one), 0.0);
+}
+
 }  // namespace
 }  // namespace chladni::linear

@@ -216,6 +216,15 @@ TEST_F(ComparedBeam, IsTheSameAfterItsFileAndStandsInItsTable)
       R"("frequency, Hz","B.z / C.z re, m/N","B.z / C.z im, m/N","B.z / C.z measured (line 12) re, m/N",)"
       R"("B.z / C.z measured (line 12) im, m/N")"))
       << table.substr(0, 200);
+  // An output that nothing was measured at has no such columns.
+  FrequencyResponses two = read;
+  two.outputs.push_back(two.outputs[0]);
+  two.outputs[1].name = "D.z";
+  two.H[0].conservativeResize(Eigen::NoChange, 2);
+  two.H[0].col(1).setZero();
+  const std::string of_two = csv_of(two), heading = of_two.substr(0, of_two.find('\n'));
+  EXPECT_NE(heading.find("D.z / C.z im"), std::string::npos) << heading;
+  EXPECT_EQ(heading.find("D.z / C.z measured"), std::string::npos) << heading;
 }
 
 }  // namespace

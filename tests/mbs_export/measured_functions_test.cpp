@@ -247,6 +247,8 @@ TEST_F(MeasuredFunctionsFile, RefusesByItsLineWhatBreaksTheFormat)
   expect("  2.50000E+00", " -2.50000E+00", "positive step");
   expect("   7  -3", "   7  -9", ":19: dataset 58: record 6: direction -9");
   expect("   7  -3", "   7 -3x", ":19: dataset 58: record 6");
+  for (const std::string type : {"        -1", "     10001", "       1.2"})
+    expect("        13    0    1    0 Force", type + "    0    1    0 Force", "no data type");
   expect("    58\n", "    58b\n", ":13: ");
   expect("    58\n", binary_head(1, 48) + "\n", ":24: dataset 58b: no line of -1");
   expect("    58\n", "    58b     1     1          11          48\n", "IEEE 754");

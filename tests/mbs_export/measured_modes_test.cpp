@@ -194,6 +194,25 @@ TEST(ModalAssurance, IsOneOfAShapeWithItselfWhateverItsFactor)
   EXPECT_NEAR(found.mac(0, 2), by_hand, 1e-12);
 }
 
+TEST(ModalAssurance, ComparesWithNaturalModesAlone)
+{
+  BodyOptions options;
+  options.fixed = {"A"};
+  options.keep.count = 4;
+  options.interface_modes = {
+      {.kind = InterfaceModes::Kind::irm, .at = "B", .components = {2, 4}, .omega0 = {}}};
+  const ModalBody body = make_body(test::regression_beam(), options);
+  const auto n_natural =
+      std::ranges::count_if(body.kinds, [](ModeKind kind) { return kind != ModeKind::interface; });
+  ASSERT_LT(n_natural, body.n_modes());
+  const ModalAssurance found = modal_assurance(body, of_held_beam(held_beam()), 0.002);
+  EXPECT_EQ(found.mac.cols(), n_natural);
+  EXPECT_EQ(found.body_Hz.size(), n_natural);
+  for (const int mode : found.modes)
+    EXPECT_NE(body.kinds[std::size_t(mode - 1)], ModeKind::interface) << mode;
+  for (Eigen::Index k = 0; k < 3; ++k) EXPECT_NEAR(found.mac(k, k), 1.0, 1e-6);
+}
+
 TEST(ModalAssurance, RefusesNodesThatAreElsewhere)
 {
   const ModalBody body = held_beam();

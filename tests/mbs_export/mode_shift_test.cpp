@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "bending_beam.hpp"
@@ -126,6 +127,27 @@ TEST(ModeShift, RefusesDependentModesThatCannotFollow)
   EXPECT_NE(error.find("cond(Q_dd)"), std::string::npos) << error;
   EXPECT_TRUE(error.find("A.z") != std::string::npos || error.find("C.z") != std::string::npos);
   EXPECT_NE(files::test::error_of([&] { shift_modes(modes, held, {0}); }), "");
+}
+
+TEST(ModeShift, RefusesStiffDependentModesThatBuryTheSoftOnesInRounding)
+{
+  // Of K_c = G^T Lambda_d G + Lambda_i the lowest eigenvalue is a difference of terms of the size
+  // of Lambda_d.
+  const ReducedSystem& beam = test::regression_beam();
+  FreeModes modes = orthogonalize(beam);
+  modes.omega.tail(2) *= 1e3;  // as of a part that hardly bends
+  const HeldDofs held = held_dofs(beam, {"A"});
+  const double softest = modes.omega[modes.n_rigid];
+  const auto lost_by = [&](int mode) {
+    return std::pow(modes.omega[mode] / softest, 2) * std::numeric_limits<double>::epsilon();
+  };
+  const int last = static_cast<int>(modes.omega.size()) - 1;
+  ASSERT_GT(lost_by(last - 1), 1e-5);
+  EXPECT_NE(files::test::error_of([&] {
+              shift_modes(modes, held, {last - 1, last});
+            }).find("lowest eigenvalues are rounded by"),
+            std::string::npos);
+  EXPECT_EQ(files::test::error_of([&] { shift_modes(modes, held, {2, 3}); }), "");
 }
 
 TEST(ModeShift, RefusesMoreSupportsThanTheModesCanHold)

@@ -223,6 +223,35 @@ TEST(SelectByTolerance, TakesTheFrequencyGivenByHand)
   EXPECT_EQ(has(inertia_relief, "B.ry"), 1);
 }
 
+TEST(SelectByTolerance, TakesNoInterfaceModeAtTheResonanceOfAModeThatIsNeglected)
+{
+  // The response of a neglected mode at its own frequency has no limit. The fourth mode lies beyond
+  // the range, and no resonance asks for it.
+  BodyOptions options = moment_at_B(1e-3);
+  const double omega_4 = complete_body(test::regression_beam(), options).omega[3];
+  ASSERT_GT(omega_4, 1.5 * 3.0 * omega_1_free);
+  options.interface_modes = {interface_modes(InterfaceModes::Kind::frm, omega_4)};
+  const ModalBody body = make_body(test::regression_beam(), options);
+  bool has_mode_4 = false;
+  for (const SelectionStep& step : body.selection->with_interface_modes) {
+    has_mode_4 = has_mode_4 || step.added == "mode 4";
+    EXPECT_TRUE(has_mode_4 || step.n_interface == 0) << step.added;
+  }
+  EXPECT_LE(body.selection->with_interface_modes.back().error, 1e-3);
+}
+
+TEST(SelectByTolerance, TakesNaturalModesWhereBothWaysNeedAsMany)
+{
+  const ModalBody body = make_body(test::wheel(), loaded_rim(0.1));
+  const SelectionStep& natural = body.selection->modes_only.back();
+  const SelectionStep& mixed = body.selection->with_interface_modes.back();
+  ASSERT_LE(std::max(natural.error, mixed.error), 0.1);
+  ASSERT_EQ(natural.size(), mixed.size());
+  ASSERT_GT(mixed.n_interface, 0);
+  EXPECT_EQ(std::ranges::count(body.kinds, ModeKind::interface), 0);
+  EXPECT_EQ(body.n_modes(), natural.size());
+}
+
 TEST(SelectByTolerance, KeepsTheRigidMotionsOfAFreeBody)
 {
   BodyOptions options;
@@ -244,6 +273,11 @@ TEST(SelectByTolerance, SaysHowFarItGotWithAToleranceBelowRoundOff)
       std::min(table.modes_only.back().error, table.with_interface_modes.back().error);
   EXPECT_GT(best, 1e-17);
   EXPECT_LT(best, 1e-11);  // round-off of 72 modes
+  const SelectionStep& closer =
+      table.modes_only.back().error <= table.with_interface_modes.back().error
+          ? table.modes_only.back()
+          : table.with_interface_modes.back();
+  EXPECT_EQ(body.n_modes(), closer.size());
 }
 
 TEST(SelectByTolerance, IsKeptInTheBodyFile)

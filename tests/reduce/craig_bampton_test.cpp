@@ -1,16 +1,21 @@
 #include "reduce/craig_bampton.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <string>
 
+#include "pencils.hpp"
 #include "reduce/basis_rows.hpp"
 #include "reduce/partition.hpp"
 #include "reduce/project_form.hpp"
 #include "reduce/rigid_constraint_modes.hpp"
 #include "tests/linear/chain.hpp"
+#include "tests/linear/matrices.hpp"
 
 namespace chladni::reduce {
 namespace {
@@ -160,6 +165,105 @@ TEST(FixedInterfaceModes, KeepTheTwoPartnersOfADoubleModeTogether)
   const auto modes =
       fixed_interface_modes(linear::factorize(K.ss), M.ss, {.modes = 3, .cutoff_Hz = {}});
   EXPECT_EQ(modes.omega.size(), 4u);  // the cut through the second pair moves
+}
+
+TEST(FixedInterfaceModes, KeepNeighboursTogetherWhereTheCutoffLiesBetweenThem)
+{
+  // Two chains that share a master, the second one stiffer by 1e-4: each frequency of it lies 5e-5
+  // above that of the first.
+  constexpr double stiffer = 1.0 + 1e-4;
+  const auto spring = [](PetscInt i) {  // from mass i to i + 1
+    return i < 0 || i >= 2 * n - 2 ? 0.0 : (i < n - 1 ? 1.0 : stiffer);
+  };
+  const petsc::Matrix K_all = linear::testing::matrix(2 * n - 1, 3, [&](PetscInt i) {
+    linear::testing::Row row{{i, spring(i - 1) + spring(i)}};
+    if (i > 0) row.emplace_back(i - 1, -spring(i - 1));
+    if (i < 2 * n - 2) row.emplace_back(i + 1, -spring(i));
+    return row;
+  });
+  const petsc::Matrix M_all = linear::testing::diagonal(2 * n - 1, [](PetscInt) { return 1.0; });
+  const DofPartition dofs = partition(K_all, master_set(K_all, {0, n - 1, 2 * n - 2}));
+  const Blocks K = split(K_all, dofs), M = split(M_all, dofs);
+  const linear::Factorization K_ss = linear::factorize(K.ss);
+  for (const int k : {1, 3, 8}) {
+    const double between = fixed_chain_frequency(k) * 0.5 * (1.0 + std::sqrt(stiffer));
+    const auto below =
+        fixed_interface_modes(K_ss, M.ss, {.cutoff_Hz = between / (2.0 * std::numbers::pi)});
+    ASSERT_EQ(below.omega.size(), std::size_t(2 * k));
+    EXPECT_NEAR(below.omega.back(), fixed_chain_frequency(k) * std::sqrt(stiffer), 1e-10);
+    EXPECT_EQ(fixed_interface_modes(K_ss, M.ss, {.modes = 2 * k - 1}).omega.size(),
+              std::size_t(2 * k));
+  }
+}
+
+/// Adds `share` of one column to another.
+void add_column(Mat columns, PetscInt to, PetscInt from, double share)
+{
+  Vec source = nullptr, target = nullptr;
+  petsc::Vector copy;
+  petsc::check(MatDenseGetColumnVecRead(columns, from, &source));
+  petsc::check(VecDuplicate(source, copy.put()));
+  petsc::check(VecCopy(source, copy));
+  petsc::check(MatDenseRestoreColumnVecRead(columns, from, &source));
+  petsc::check(MatDenseGetColumnVec(columns, to, &target));
+  petsc::check(VecAXPY(target, share, copy));
+  petsc::check(MatDenseRestoreColumnVec(columns, to, &target));
+}
+
+TEST(LargestResidual, IsThatOfTheOneModeThatIsSpoiledWhicheverItIs)
+{
+  const Reduction r;
+  constexpr int n_modes = 7;
+  constexpr double c = 1e-3;
+  for (const int spoiled : {0, 3, n_modes - 1}) {
+    const auto modes = fixed_interface_modes(r.K_ss, r.M.ss, {.modes = n_modes});
+    EXPECT_LT(largest_residual(modes, r.K.ss, r.M.ss), 1e-9);
+    const int other = spoiled == 2 ? 1 : 2;
+    add_column(modes.Phi, spoiled, other, c);
+    // (K - lambda_i M) (phi_i + c phi_j) = c (lambda_j - lambda_i) M phi_j, orthonormal in M = I
+    const double lambda = std::pow(modes.omega[std::size_t(spoiled)], 2),
+                 lambda_other = std::pow(modes.omega[std::size_t(other)], 2);
+    EXPECT_NEAR(largest_residual(modes, r.K.ss, r.M.ss),
+                c * std::abs(lambda_other - lambda) / (lambda * std::sqrt(1.0 + c * c)), 1e-8)
+        << spoiled;
+  }
+}
+
+/// The entries with nine digits, as files of some programs have them.
+petsc::Matrix with_nine_digits(const Eigen::MatrixXd& A)
+{
+  return linear::testing::matrix(PetscInt(A.rows()), PetscInt(A.cols()), [&](PetscInt i) {
+    linear::testing::Row row;
+    for (PetscInt j = 0; j < A.cols(); ++j)
+      if (A(i, j) != 0.0) row.emplace_back(j, std::stod(fmt::format("{:.8e}", A(i, j))));
+    return row;
+  });
+}
+
+TEST(GuyanStiffness, HasSixRigidMotionsOfABlockWhoseFileHasNineDigits)
+{
+  const testing::Body block = testing::solid_block({3, 2, 2}, {0.3, 0.1, 0.12});
+  const petsc::Matrix K_all = with_nine_digits(testing::whole(block.pencil.K));
+  std::vector<PetscInt> masters;
+  for (const PetscInt node : {0, 3, 8, 35})
+    for (PetscInt component = 0; component < 3; ++component)
+      masters.push_back(3 * node + component);
+  const DofPartition dofs = partition(K_all, master_set(K_all, masters));
+  const Blocks K = split(K_all, dofs);
+  const petsc::Matrix Psi = constraint_modes(linear::factorize(K.ss), K);
+  const GuyanStiffness guyan = guyan_stiffness(Psi, K);
+  ASSERT_EQ(guyan.R.cols(), 6);
+  EXPECT_LT((guyan.K * guyan.R).norm(), 1e-12 * guyan.K.norm() * guyan.R.norm());
+  // They are the rigid motions of the masters, as far as nine digits go.
+  Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(12, 6);
+  for (PetscInt i = 0; i < 4; ++i) {
+    const auto [x, y, z] = block.positions[std::size_t(masters[std::size_t(3 * i)] / 3)];
+    rigid.block<3, 3>(3 * i, 0).setIdentity();
+    rigid.block<3, 3>(3 * i, 3) << 0.0, z, -y, -z, 0.0, x, y, -x, 0.0;
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rigid);
+  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(12, 6);
+  EXPECT_LT((guyan.R - Q * (Q.transpose() * guyan.R)).norm(), 1e-7 * guyan.R.norm());
 }
 
 TEST(Factorization, RefusesAPartThatNoMasterHolds)

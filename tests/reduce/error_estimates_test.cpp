@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "linear/dense/dense_solvers.hpp"
@@ -101,6 +102,101 @@ TEST(ErrorEstimates, EncloseAnEigenvalueOfTheFullChain)
       EXPECT_LE(nearest, std::sqrt(eta2[i]) + 1e-11) << n_modes << " modes, pair " << i + 1;
     }
   }
+}
+
+/// Of a motion u of the chain with u_0 = 0 and u^T u = 1, M = I and K_jj = 2, 1 at the free end:
+/// 4 eps sum_j (K_jj / lambda + M_jj) u_j^2 = 4 eps ((2 - u_end^2) / lambda + 1).
+TEST(ErrorEstimates, HaveTheRoundingOfTheEntriesOfTheChain)
+{
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  for (const int n_modes : {3, 8, 20}) {
+    const HeldChain held(n_modes);
+    const ReducedPairs pairs = held.pairs();
+    const std::vector<double> rounding = error_estimates(held.system(), pairs).rounding;
+    for (std::size_t i = 0; i < rounding.size(); ++i) {
+      const double u_end = pairs.X(1, Eigen::Index(i));
+      const double of_entries = 4.0 * eps * ((2.0 - u_end * u_end) / pairs.lambda[i] + 1.0);
+      EXPECT_GE(rounding[i], of_entries * (1.0 - 1e-6)) << n_modes << " modes, pair " << i + 1;
+      // A Galerkin solution has the Rayleigh quotient of its motion. Dense eigenvalues differ from
+      // it by 4 eps / lambda, of which the second term is twice.
+      EXPECT_LE(rounding[i], of_entries + 16.0 * eps / pairs.lambda[i] + 1e-13)
+          << n_modes << " modes, pair " << i + 1;
+    }
+  }
+}
+
+/// What an eigen-solver leaves is measured against the Rayleigh quotient in the FE model, whichever
+/// of the masters move.
+TEST(ErrorEstimates, CountTheDistanceFromTheRayleighQuotient)
+{
+  const HeldChain held(8);
+  ReducedPairs pairs = held.pairs();
+  const std::vector<double> exact = error_estimates(held.system(), pairs).rounding;
+  constexpr double off = 1e-5;
+  for (double& lambda : pairs.lambda) lambda *= 1.0 + off;
+  const std::vector<double> spoiled = error_estimates(held.system(), pairs).rounding;
+  for (std::size_t i = 0; i < exact.size(); ++i)
+    EXPECT_NEAR(spoiled[i] - exact[i], 2.0 * off, 1e-3 * off) << i;
+}
+
+/// A master (k, m) and a left-out mode (lambda_o, 1) coupled by p: eta^2 = p^2 lambda / (m
+/// lambda_o), and (k - lambda m) (lambda_o - lambda) = (lambda p)^2 for the exact lambda.
+struct LeftOutMode {
+  double lambda, lambda_left_out, p;
+
+  double eta2() const { return p * p * lambda / lambda_left_out; }
+  /// Of m = 1, k = lambda: the lower root of (1 - p^2) x^2 - (lambda + lambda_o) x + lambda
+  /// lambda_o.
+  double exact() const
+  {
+    const double b = lambda + lambda_left_out, c = lambda * lambda_left_out;
+    return 2.0 * c / (b + std::sqrt(b * b - 4.0 * (1.0 - p * p) * c));
+  }
+  double frequency_error() const { return std::sqrt(lambda / exact()) - 1.0; }
+};
+
+TEST(FrequencyError, IsThatOfAMasterWithASingleModeLeftOut)
+{
+  for (const double lambda : {0.1, 2.0, 5.0, 8.0}) {
+    const LeftOutMode model{.lambda = lambda, .lambda_left_out = 10.0, .p = 1e-3};
+    // To first order in p^2; the next terms are p^2 / (1 - lambda / lambda_o)^2 of it.
+    EXPECT_NEAR(frequency_error(model.eta2(), lambda, 10.0) / model.frequency_error(), 1.0, 1e-4)
+        << lambda;
+  }
+}
+
+TEST(FrequencyError, GrowsToFiftyTimesTheHalfOfEtaSquaredAndNoFurther)
+{
+  EXPECT_DOUBLE_EQ(frequency_error(1e-4, 9.8, 10.0), 0.5e-4 / 0.02);
+  for (const double lambda : {9.9, 10.0, 11.0})
+    EXPECT_DOUBLE_EQ(frequency_error(1e-4, lambda, 10.0), 0.5e-4 / 0.02);
+  EXPECT_DOUBLE_EQ(frequency_error(1e-4, 7.0, std::numeric_limits<double>::infinity()), 0.5e-4);
+}
+
+TEST(FrequencyErrorsByPlace, CompareWithTheFrequencyOfThatPlaceWhereTheErrorChangesTheOrder)
+{
+  // Two bodies side by side: the second frequency is exact, the third one falls below it.
+  const LeftOutMode falls{.lambda = 4.01, .lambda_left_out = 20.0, .p = 0.15};
+  ASSERT_LT(falls.exact(), 4.0);
+  const std::vector<double> lambda{1.0, 4.0, 4.01};
+  const std::vector<double> errors =
+      frequency_errors_by_place(lambda, {0.0, 0.0, falls.eta2()}, 20.0);
+  ASSERT_EQ(errors.size(), 3u);
+  const double second_order = std::pow(falls.frequency_error(), 2) * 4.0;
+  EXPECT_NEAR(errors[0], 0.0, 1e-15);
+  EXPECT_NEAR(errors[1], std::sqrt(4.0 / falls.exact()) - 1.0, second_order);
+  EXPECT_NEAR(errors[2], std::sqrt(4.01 / 4.0) - 1.0, 1e-15);
+  EXPECT_GT(errors[1], 4.0 * second_order);
+}
+
+TEST(FrequencyErrorsByPlace, DoNotSendAModeFarDownWhereTheNextModesAreLeftOut)
+{
+  // Above half of lambda_left_out the factor 1 / (1 - lambda / lambda_left_out) stays 2.
+  for (const double lambda : {5.0, 7.0, 9.99}) {
+    const std::vector<double> errors = frequency_errors_by_place({lambda}, {0.3}, 10.0);
+    EXPECT_NEAR(errors.front(), 0.3, 1e-15) << lambda;
+  }
+  EXPECT_NEAR(frequency_errors_by_place({2.5}, {0.3}, 10.0).front(), 0.15 / 0.75, 1e-15);
 }
 
 TEST(ErrorEstimates, FallWithTheNumberOfModes)

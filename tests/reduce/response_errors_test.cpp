@@ -9,6 +9,7 @@
 #include <random>
 
 #include "common/petsc_compat.hpp"
+#include "linear/cholesky/inverse_form.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "mbs_export/reference_response.hpp"
 #include "mbs_export/response_sizes.hpp"
@@ -132,6 +133,23 @@ TEST(ResidualForms, HaveTheShapesThatTheyMeasure)
   petsc::check(MatMatMult(loaded.K.ss, z, MAT_INITIAL_MATRIX, petsc::automatic, r.put()));
   const MatrixXd G = forms.energy(X, s);
   EXPECT_LT((linear::inner_product(z, r) - G).norm(), 1e-10 * G.norm());
+}
+
+TEST(ResidualForms, AreTheSameWithAFactorThatSolvesAsAWholeAlone)
+{
+  const char* option = "-cms_pc_factor_mat_solver_type";
+  LoadedChain ours;
+  petsc::check(PetscOptionsSetValue(nullptr, option, "mumps-metis"));
+  LoadedChain by_mumps;
+  petsc::check(PetscOptionsClearValue(nullptr, option));
+  ASSERT_TRUE(linear::halves(ours.K_ss.factor()));
+  ASSERT_FALSE(linear::halves(by_mumps.K_ss.factor()));
+  const double s = 0.5 * ours.modes.lambda_left_out;
+  const auto energy = [s](LoadedChain& loaded) {
+    return ResidualForms(loaded.growing()).energy(loaded.responses(std::sqrt(s)), s);
+  };
+  const MatrixXd expected = energy(ours);
+  EXPECT_LT((energy(by_mumps) - expected).norm(), 1e-9 * expected.norm());
 }
 
 TEST(ResidualForms, GrowWithTheBasis)

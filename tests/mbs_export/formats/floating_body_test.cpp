@@ -75,6 +75,26 @@ TEST(FloatingBody, RefusesDampersToTheGround)
   EXPECT_EQ(refused_key(wheel, with_dampers()), "spring.damping");
 }
 
+/// P / sqrt(m) of a motion of unit modal mass is the part of it that the centre of mass moves with,
+/// and L / sqrt(J) the part of a rotation: the larger one couples to the frame.
+TEST(FloatingBody, IsCoupledByItsMomentumOrByItsAngularMomentum)
+{
+  FloatingBody floating{};
+  floating.body.omega = Eigen::Vector2d(10.0, 20.0);
+  floating.body.mass = 4.0;
+  floating.body.centre_of_mass = {0.0, 1.0, 0.0};
+  floating.body.inertia = Eigen::Vector3d(1.0, 2.0, 2.0).asDiagonal();  // trace 5, and 4 * 1^2
+  floating.momentum = MatrixXd::Zero(3, 2);
+  floating.angular_momentum = MatrixXd::Zero(3, 2);
+  EXPECT_EQ(coupling(floating), 0.0);
+  floating.momentum.col(1) << 0.6, 0.0, 0.8;
+  EXPECT_NEAR(coupling(floating), 0.5, 1e-15);
+  floating.angular_momentum.col(0) << 0.0, 0.3, 0.0;
+  EXPECT_NEAR(coupling(floating), 0.5, 1e-15);
+  floating.angular_momentum.col(0) << 0.0, 0.0, 2.7;
+  EXPECT_NEAR(coupling(floating), 0.9, 1e-15);
+}
+
 TEST(FloatingBody, MayLeaveDampersOut)
 {
   ReducedSystem wheel = damped_wheel();

@@ -1,0 +1,588 @@
+"""Plants small faults in the sources of libraries and asks whether their unit tests see them.
+
+usage: mutants.py BUILD PAGE.md NUMBER [ROOM...]
+
+So many faults are drawn from the tables below, with the number of commits as seed, from the sources of the rooms (of all that
+have a library and a unit test). Those of one library are compiled together: each waits behind CHLADNI_MUTANT, so that `a < b`
+becomes `mutants::is(17) ? a <= b : a < b`. What cannot be written so is compiled by itself. A first run of the tests, with no
+fault, notes which test reaches which of them and how long it takes. A fault is tried by the tests that reach it, the shortest
+first, until one fails, hangs or dies; where none does, by all tests of the library. PAGE.md gets a table by room and all
+survivors with file and line.
+
+Debian 12 and 13 package no such tool for C++: Mull, Dextool, universalmutator and Milu were looked for, and a search for
+"mutation" finds genetics, permutations and JavaScript alone.
+"""
+import dataclasses
+import json
+import os
+import pathlib
+import random
+import re
+import shlex
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# Libraries of a room, and its unit tests.
+ROOMS = {
+    "linear/dense": (["dense", "products"], ["dense_test"]),
+    "linear": (["linear"], ["supernodal_test", "linear_test", "reduce_test"]),
+    "reduce": (["reduce"], ["reduce_test"]),
+    "cyclic": (["cyclic"], ["cyclic_test"]),
+    "mesh": (["mesh"], ["mesh_test"]),
+    "plate/elements": (["elements"], ["elements_test"]),
+    "plate": (["plate"], ["assemble_test"]),
+    "files": (["files"], ["files_test"]),
+    "mbs_export": (["mbs_export"], ["mbs_export_test"]),
+    "fmu": (["fmu"], ["fmu_test"]),
+    "scene": (["scene"], ["scene_test"]),
+    "sound": (["sound"], ["sound_test"]),
+    "squeal": (["squeal_brake", "squeal"], ["assembly_test", "sweep_test", "squeal_test"]),
+}  # fmt: skip
+
+# Faults that change nothing that a test may ask for: file, the line as it is, what becomes of it (None: whatever), and why that
+# is equivalent.
+EQUIVALENT = [
+    ("plate/elements/element_rules.cpp", "const double c = order == 2 ? 0.5 : 0.1;", "const double c = order == 2 ? 0.5 : 0.2;",
+     "how much of a thick element is integrated less; elements with either number have the same order of convergence"),
+    *(("plate/elements/beam_axes.cpp", "const VectorXd nodes = VectorXd::LinSpaced(n, -1.0, 1.0);", after,
+       "an affine change of the parameter of a line, whose tangents keep their directions")
+      for after in ("const VectorXd nodes = VectorXd::LinSpaced(n, -2.0, 1.0);", "const VectorXd nodes = VectorXd::LinSpaced(n, -1.0, 2.0);")),
+    ("mbs_export/contact_rings.cpp", "return ring.radius > 0.0 ? std::optional(ring) : std::nullopt;",
+     "return (ring.radius >= 0.0) ? std::optional(ring) : std::nullopt;", "nodes on the axis all have the angle 0, which is refused before"),
+    ("mbs_export/reference_response.cpp", "(omega.array() > 0.0).select(omega.array().max(1e-300).square().inverse(), 0.0);", None,
+     "no frequency is as low: it keeps a value from being infinite that is not taken"),
+    ("files/hdf5_writer.cpp", "const Eigen::Index most = std::max<Eigen::Index>(1, piece / std::max<Eigen::Index>(1, x.cols()));", None,
+     "how many rows are written at a time; the file is the same"),
+]  # fmt: skip
+
+RELATIONS = {"<": ("<=", ">="), "<=": ("<", ">"), ">": (">=", "<="), ">=": (">", "<"), "==": ("!=",), "!=": ("==",),
+             "&&": ("||",), "||": ("&&",)}  # fmt: skip
+SIGNS = ("+", "-", "+=", "-=")
+EXTREMES = {"max": "min", "min": "max"}
+# What a line must not have: it is no code that runs, or says only what is said or how fast.
+LEFT_OUT = re.compile(r"^\s*(#|//|template|using|static_assert|assert\(|case |friend|namespace|throw )|fmt::format|report_progress"
+                      r"|\.reserve\(|LogEvent|static constexpr|operator")  # fmt: skip
+
+HEADER = """#pragma once
+#include <cstdlib>
+#include <string>
+namespace mutants {
+inline constexpr int most = 4096;
+inline bool reached[most];
+inline int chosen()
+{
+  static const int number = [] {
+    const char* text = std::getenv("CHLADNI_MUTANT");
+    return text == nullptr ? -1 : std::atoi(text);
+  }();
+  return number;
+}
+inline bool is(int number)
+{
+  reached[number] = true;
+  return number == chosen();
+}
+inline int sign(int number) { return is(number) ? -1 : 1; }
+inline double value(int number, double right, double wrong) { return is(number) ? wrong : right; }
+}  // namespace mutants
+"""
+
+# Appends `name milliseconds reached...` of each test to the file CHLADNI_REACHED.
+LISTENER = """#include <gtest/gtest.h>
+#include <cstdio>
+#include "mutants.hpp"
+namespace {
+class Listener : public testing::EmptyTestEventListener {
+  void OnTestEnd(const testing::TestInfo& test) override
+  {
+    const char* path = std::getenv("CHLADNI_REACHED");
+    if (path == nullptr) return;
+    std::FILE* file = std::fopen(path, "a");
+    std::fprintf(file, "%s.%s %d", test.test_suite_name(), test.name(), int(test.result()->elapsed_time()));
+    for (int i = 0; i < mutants::most; ++i)
+      if (mutants::reached[i]) std::fprintf(file, " %d", i);
+    std::fprintf(file, "\\n");
+    std::fclose(file);
+    for (bool& reached : mutants::reached) reached = false;
+  }
+};
+const bool is_added = [] {
+  testing::UnitTest::GetInstance()->listeners().Append(new Listener);
+  return true;
+}();
+}  // namespace
+"""
+
+
+@dataclasses.dataclass
+class Fault:
+    """The text [first, last) of a file becomes `switched`, or `plain` where it stands by itself."""
+
+    path: str
+    first: int
+    last: int
+    kind: str
+    switched: str
+    plain: str
+    line: int = 0
+    before: str = ""
+    after: str = ""
+    number: int = -1
+    by_itself: bool = False
+    outcome: str = ""
+    seen_by: str = ""
+
+
+def masked(text):
+    """The text with comments, strings and characters blank, at the same places."""
+    def blank(match):
+        return re.sub(r"[^\n]", " ", match[0])
+    text = re.sub(r'//[^\n]*|/\*.*?\*/|R"\((?:.|\n)*?\)"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', blank, text, flags=re.S)
+    text = re.sub(r"^#el(?:if|se)\b.*?^#endif", blank, text, flags=re.S | re.M)  # of another machine
+    return re.sub(r"throw Error\([^;]*;", blank, text)  # what is said
+
+
+def code_spans(text):
+    """For each character whether it lies in the body of a function."""
+    inside, stack, depth = [], [], 0
+    for i, c in enumerate(text):
+        if c == "{":
+            ahead = text[max(0, i - 400):i].rstrip()
+            is_body = bool(re.search(r"(\)|\bconst|\bnoexcept|\boverride|\belse|\bdo|\btry|\]|->\s*[\w:<>,\s*&]+)$", ahead))
+            is_type = bool(re.search(r"\b(namespace|struct|class|enum|union)\b[^;{}()]*$", ahead))
+            stack.append((is_body or depth > 0) and not is_type)
+            depth = sum(stack)
+        elif c == "}" and stack:
+            stack.pop()
+            depth = sum(stack)
+        inside.append(depth > 0)
+    return inside
+
+
+STOPS = {"&&", "||", "?", ":", "=", "return", "<<", "+=", "-=", "*=", "/="}
+
+
+def operand(text, at, step, stops):
+    """The end of the operand that begins beside an operator, in steps of -1 or 1."""
+    depth, opening, closing = 0, ")]}" if step < 0 else "([{", "([{" if step < 0 else ")]}"
+    i = at
+    while 0 <= i < len(text):
+        c = text[i]
+        if c in opening:
+            depth += 1
+        elif c in closing:
+            if depth == 0:
+                break
+            depth -= 1
+        elif depth == 0:
+            if c in ",;":
+                break
+            word = re.compile(r"\s(&&|\|\||\?|:|[+\-*/|]?=|<<|<=?|>=?|==|!=)\s").match(text, i - 1 if step > 0 else max(0, i - 3))
+            if step > 0 and word and word[1] in stops and text[i - 1].isspace():
+                i -= 1
+                break
+            if step < 0:
+                ahead = re.search(r"(?:\s(&&|\|\||\?|:|[+\-*/|]?=|<<|<=?|>=?|==|!=)|\b(return))\s$", text[max(0, i - 7):i + 1])
+                if ahead and (ahead[1] or ahead[2]) in stops:
+                    break
+        i += step
+    return i + 1 if step < 0 else i
+
+
+def closing(mask, at):
+    """The place of the bracket that closes the one before `at`."""
+    depth = 1
+    while depth > 0 and at < len(mask):
+        depth += (mask[at] in "([{") - (mask[at] in ")]}")
+        at += 1
+    return at - 1
+
+
+def relations(path, text, mask):
+    for match in re.finditer(r" (<=?|>=?|==|!=|&&|\|\|) ", mask):
+        line = line_of(text, match.start())
+        if re.match(r"\s*for \(", line) or "template" in line:
+            continue
+        op = match[1]
+        logical = op in ("&&", "||")
+        stops = STOPS if not logical else STOPS | {op}
+        first, last = operand(mask, match.start(), -1, stops), operand(mask, match.end(), 1, stops)
+        left, right = text[first:match.start()].strip(), text[match.end():last].strip()
+        first += len(text[first:match.start()]) - len(text[first:match.start()].lstrip())
+        last = match.end() + len(text[match.end():last].rstrip())
+        if not left or not right or "[&" in left + right or "{" in left + right:
+            continue
+        for other in RELATIONS[op]:
+            yield Fault(path, first, last, f"`{op}` to `{other}`",
+                        f"(mutants::is(@) ? ({left} {other} {right}) : ({left} {op} {right}))", f"({left} {other} {right})")
+
+
+def signs(path, text, mask):
+    for match in re.finditer(r"(?<=[\w)\]]) ([+-]=?) (?=[\w(])", mask):
+        op = match[1]
+        if re.search(r"\bfor \(", line_of(text, match.start())):
+            continue
+        last = match.end()
+        plain = {"+": " - ", "-": " + ", "+=": " -= ", "-=": " += "}[op]
+        if len(op) == 2:
+            end = mask.find(";", last)
+            if end < 0 or "\n" in mask[last:end]:
+                continue
+            yield Fault(path, last, end, f"`{op}` to `{plain.strip()}`", f"mutants::sign(@) * ({text[last:end]})", "")
+        else:
+            yield Fault(path, match.start(), last, f"`{op}` to `{plain.strip()}`", f" {op} mutants::sign(@) * ", plain)
+
+
+def constants(path, text, mask):
+    for match in re.finditer(r"(?<![\w.])(\d+\.\d*(?:e[+-]?\d+)?|\d+e[+-]?\d+)(?![\w.])", mask):
+        number = float(match[1])
+        if number == 0.0:
+            continue
+        others = [number * 2.0, number * 0.5] if "e" not in match[1] else [number * 1e3, number * 1e-3]
+        for other in others:
+            yield Fault(path, match.start(), match.end(), f"{match[1]} to {other:.3g}",
+                        f"mutants::value(@, {match[1]}, {other!r})", repr(other))
+
+
+STATEMENT = re.compile(r"^( +)(?!return\b|throw\b|const\b|auto\b|if\b|for\b|while\b|using\b|static\b|else\b|break\b|continue\b|case\b|delete\b)"
+                       r"([\w:.\[\]*()&>-]+(?:\(.*\))?(?: [+\-*/|]?= .*)?);$")  # fmt: skip
+
+
+def statements(path, text, mask):
+    at = 0
+    lines = mask.splitlines(keepends=True)
+    for k, line in enumerate(lines):
+        match = STATEMENT.match(line.rstrip("\n"))
+        before = next((previous.rstrip() for previous in reversed(lines[:k]) if previous.strip()), "")
+        if match and before.endswith((";", "{", "}", ")")) and ("(" in line or "=" in line) and "Restore" not in line:
+            first, last = at + len(match[1]), at + len(line.rstrip("\n"))
+            yield Fault(path, first, last, "statement dropped", f"{{ if (!mutants::is(@)) {text[first:last]} }}", "{}")
+        at += len(line)
+
+
+def guards(path, text, mask):
+    for match in re.finditer(r"\bif \(", mask):
+        last = closing(mask, match.end())
+        condition = text[match.end():last]
+        if ";" in condition or " = " in condition or "constexpr" in line_of(text, match.start()):
+            continue
+        yield Fault(path, match.end(), last, "guard removed", f"!mutants::is(@) && ({condition})", f"false && ({condition})")
+        yield Fault(path, match.end(), last, "condition always true", f"mutants::is(@) || ({condition})",
+                    f"true || ({condition})")  # fmt: skip
+
+
+def extremes(path, text, mask):
+    for match in re.finditer(r"std::(max|min)(<[\w:]+>)?\(", mask):
+        last = closing(mask, match.end()) + 1
+        right, rest = text[match.start():last], text[match.start() + 8:last]
+        if right.count(",") == 0 or "{" in right:
+            continue
+        wrong = f"std::{EXTREMES[match[1]]}{rest}"
+        yield Fault(path, match.start(), last, f"`{match[1]}` to `{EXTREMES[match[1]]}`",
+                    f"(mutants::is(@) ? {wrong} : {right})", wrong)
+
+
+KINDS = (relations, signs, constants, statements, guards, extremes)
+
+
+def line_of(text, at):
+    return text[text.rfind("\n", 0, at) + 1:text.find("\n", at)]
+
+
+def faults_of(path):
+    """[[Fault...] of each kind], each with its line as it is and as it becomes."""
+    text = (ROOT / path).read_text(encoding="utf-8")
+    mask = masked(text)
+    inside = code_spans(mask)
+    found = []
+    for kind in KINDS:
+        found.append([])
+        for fault in kind(path, text, mask):
+            line = line_of(text, fault.first)
+            is_constant = line.lstrip().startswith("constexpr") and kind is constants
+            if not (inside[fault.first] or is_constant) or LEFT_OUT.search(line) or ("constexpr" in line and not is_constant):
+                continue
+            fault.line = text.count("\n", 0, fault.first) + 1
+            begin, end = text.rfind("\n", 0, fault.first) + 1, text.find("\n", fault.last)
+            fault.before = " ".join(text[begin:end].split())
+            plain = fault.plain or text[fault.first:fault.last]
+            fault.after = " ".join((text[begin:fault.first] + plain + text[fault.last:end]).split())
+            if kind is statements:
+                fault.after = "nothing"
+            if fault.kind in ("`+=` to `-=`", "`-=` to `+=`"):
+                old, new = re.findall("`(.=)`", fault.kind)
+                fault.after = fault.before.replace(old, new, 1)
+            found[-1].append(fault)
+    return found
+
+
+def drawn(paths, number, generator):
+    """So many faults, of no two in one line; the kinds as often as each other."""
+    kinds = [[] for _ in KINDS]
+    for path in paths:
+        for kind, of_file in zip(kinds, faults_of(path)):
+            kind.extend(of_file)
+    chosen, taken = [], []
+    while len(chosen) < number and any(kinds):
+        kind = generator.choice([k for k in kinds if k])
+        fault = kind.pop(generator.randrange(len(kind)))
+        lines = range(fault.line, fault.line + 1 + fault.switched.count("\n"))
+        if any(path == fault.path and (set(lines) & set(others)) for path, others in taken):
+            continue
+        taken.append((fault.path, lines))
+        chosen.append(fault)
+    return chosen
+
+
+def planted(path, faults):
+    """The source with these faults behind their switches."""
+    text = (ROOT / path).read_text(encoding="utf-8")
+    for fault in sorted(faults, key=lambda f: -f.first):
+        switched = fault.switched.replace("@", str(fault.number))
+        begin = text.rfind("\n", 0, fault.first) + 1
+        text = text[:fault.first] + switched + text[fault.last:]
+        if re.match(r"\s*constexpr ", text[begin:]):
+            text = text[:begin] + text[begin:].replace("constexpr", "const", 1)
+    return text
+
+
+def plainly(path, fault):
+    """The source with this fault alone, as an author would have made it."""
+    text = (ROOT / path).read_text(encoding="utf-8")
+    if not fault.plain:  # of `+=`
+        begin = text.rfind("\n", 0, fault.first) + 1
+        old, new = re.findall("`(.=)`", fault.kind)
+        return text[:begin] + text[begin:].replace(old, new, 1)
+    return text[:fault.first] + fault.plain + text[fault.last:]
+
+
+class Library:
+    """The batches of a library, compiled with faults, and programs linked with them."""
+
+    def __init__(self, build, scratch, libraries, programs):
+        self.build, self.scratch, self.programs = build, scratch, programs
+        subprocess.run(["ninja", "-C", str(build), *(f"tests/{p}" for p in programs)], stdout=subprocess.DEVNULL, check=True)
+        listed = subprocess.run(["ninja", "-C", str(build), "-t", "commands", *(f"tests/{p}" for p in programs)],
+                                stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()  # fmt: skip
+        self.batches = {}
+        for command in listed:
+            match = re.search(r"-c (\S*/batches/chladni_(\w+?)_(\d+)\.cpp)$", command)
+            if match and match[2] in libraries:
+                self.batches[match[1]] = command
+        self.links = {p: next(c for c in listed if f" -o tests/{p} " in c) for p in programs}
+        # The listener needs what a test is compiled with.
+        self.of_test = next(c for c in listed if f"/batches/{programs[0]}_0.cpp" in c and " -c " in c)
+
+    def sources(self):
+        return {batch: re.findall(r'#include "([^"]+)"', pathlib.Path(batch).read_text(encoding="utf-8"))
+                for batch in self.batches}  # fmt: skip
+
+    def compile(self, command, source, folder, name):
+        """The object file, or what the compiler says."""
+        words = [w for w in shlex.split(command.replace("&&", " ")) if w not in (":", "-Werror")]
+        out = folder / f"{name}.o"
+        for flag, value in (("-o", str(out)), ("-c", str(source)), ("-MF", str(out) + ".d"), ("-MT", str(out))):
+            words[words.index(flag) + 1] = value
+        first = next(i for i, w in enumerate(words) if w.startswith("-I"))
+        words[first:first] = [f"-I{folder}", "-include", str(self.scratch / "mutants.hpp"), "-ferror-limit=0", "-w"]
+        done = subprocess.run(words, cwd=self.build, stderr=subprocess.PIPE, text=True, check=False)
+        return (out, "") if done.returncode == 0 else (None, done.stderr)
+
+    def link(self, program, objects, name):
+        command = self.links[program]
+        words = shlex.split(command[command.index("/usr/bin/"):].split(" && ")[0])
+        out = self.scratch / name
+        words[words.index("-o") + 1] = str(out)
+        at = next(i for i, w in enumerate(words) if w.startswith("tests/") and w.endswith(".o"))
+        words[at:at] = [str(o) for o in objects]
+        words = [w.replace("$ORIGIN/../lib", str(self.build / "lib")) for w in words]
+        subprocess.run(words, cwd=self.build, check=True)
+        return out
+
+
+def runs(program, build, timeout, mutant=None, tests=None, reached=None):
+    """(whether all tests passed, the first that did not)"""
+    environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1",
+                       CHLADNI_MESHER=str(build / "libexec/chladni/chladni-mesher"))
+    if mutant is not None:
+        environment["CHLADNI_MUTANT"] = str(mutant)
+    if reached is not None:
+        environment["CHLADNI_REACHED"] = str(reached)
+    if tests is not None:
+        environment["GTEST_FILTER"] = ":".join(tests)
+    fast = [] if reached is not None else ["--gtest_fail_fast"]
+    try:
+        done = subprocess.run([program, "--gtest_brief=1", *fast], cwd=build / "tests", env=environment, timeout=timeout,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", check=False)  # fmt: skip
+    except subprocess.TimeoutExpired:
+        return False, "time"
+    failed = re.search(r"\[  FAILED  \] ([\w/.]+)", done.stdout)
+    return done.returncode == 0, failed[1] if failed else f"exit status {done.returncode}"
+
+
+def compiled(library, faults):
+    """Objects with all faults that can stand together; the others are marked."""
+    objects = []
+    for batch, paths in library.sources().items():
+        of_batch = [f for f in faults if f.path in paths]
+        if not of_batch:
+            continue
+        folder = library.scratch / pathlib.Path(batch).stem
+        while True:
+            for path in {f.path for f in of_batch}:
+                (folder / path).parent.mkdir(parents=True, exist_ok=True)
+                (folder / path).write_text(planted(path, [f for f in of_batch if f.path == path and not f.by_itself]), encoding="utf-8")
+            made, errors = library.compile(library.batches[batch], batch, folder, "switched")
+            if made:
+                objects.append(made)
+                break
+            wrong = {(pathlib.Path(m[1]).relative_to(folder).as_posix(), int(m[2]))
+                     for m in re.finditer(r"^(\S+?):(\d+):\d+: error", errors, re.M) if m[1].startswith(str(folder))}
+            wrong |= {(pathlib.Path(m[1]).relative_to(folder).as_posix(), int(m[2]))
+                      for m in re.finditer(r"^(\S+?):(\d+):\d+: note: in instantiation", errors, re.M) if m[1].startswith(str(folder))}
+            marked = [f for f in of_batch if not f.by_itself and any(p == f.path and abs(f.line - n) < 4 for p, n in wrong)]
+            for fault in marked or [f for f in of_batch if not f.by_itself]:
+                fault.by_itself = True
+    return objects
+
+
+def baseline(library, programs):
+    """{test: (program, seconds, numbers that it reaches)}"""
+    known = {}
+    for name, program in programs.items():
+        file = library.scratch / f"{name}.reached"
+        file.unlink(missing_ok=True)
+        passed, failed = runs(program, library.build, 1200, reached=file)
+        if not passed:
+            sys.exit(f"mutants: {name} fails without a fault: {failed}")
+        for line in file.read_text().splitlines():
+            test, milliseconds, *numbers = line.split()
+            known[name, test] = (program, int(milliseconds) / 1e3, {int(n) for n in numbers})
+    return known
+
+
+def tried(library, fault, programs, known, number):
+    """Fills in the outcome."""
+    reaching = {k: v for k, v in known.items() if fault.by_itself or fault.number in v[2]}
+    if not reaching:
+        fault.outcome = "survived"
+        fault.seen_by = "no test comes here"
+        return
+    by_program = {}
+    for (name, test), (_, seconds, _) in sorted(reaching.items(), key=lambda item: item[1][1]):
+        by_program.setdefault(name, []).append((test, seconds))
+    rounds = [] if fault.by_itself else [(n, [t for t, s in tests], sum(s for _, s in tests)) for n, tests in by_program.items()]
+    rounds += [(n, None, sum(v[1] for k, v in known.items() if k[0] == n)) for n in programs]
+    for name, tests, seconds in rounds:
+        passed, failed = runs(programs[name], library.build, 8.0 * seconds + 30.0, mutant=number, tests=tests)
+        if not passed:
+            fault.outcome, fault.seen_by = "seen", failed
+            return
+    fault.outcome = "survived"
+
+
+def try_library(room, build, scratch, faults):
+    libraries, names = ROOMS[room]
+    library = Library(build, scratch, libraries, names)
+    (scratch / "mutants.hpp").write_text(HEADER, encoding="utf-8")
+    (scratch / "listener.cpp").write_text(LISTENER, encoding="utf-8")
+    listener, errors = library.compile(library.of_test, scratch / "listener.cpp", scratch, "listener")
+    if listener is None:
+        sys.exit(errors)
+    objects = [listener, *compiled(library, faults)]
+    programs = {name: library.link(name, objects, name) for name in names}
+    known = baseline(library, programs)
+    for fault in faults:
+        if not fault.by_itself:
+            tried(library, fault, programs, known, fault.number)
+            report(fault)
+    for fault in faults:
+        if not fault.by_itself:
+            continue
+        batch = next(b for b, paths in library.sources().items() if fault.path in paths)
+        folder = scratch / f"alone_{fault.number}"
+        (folder / fault.path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / fault.path).write_text(plainly(fault.path, fault), encoding="utf-8")
+        made, _ = library.compile(library.batches[batch], batch, folder, "alone")
+        if made is None:
+            fault.outcome = "no program"
+        else:
+            alone = {name: library.link(name, [listener, made], f"alone_{name}") for name in names}
+            tried(library, fault, alone, known, None)
+        report(fault)
+
+
+def reason(fault):
+    return next((why for path, before, after, why in EQUIVALENT
+                 if (path, before) == (fault.path, fault.before) and after in (None, fault.after)), None)  # fmt: skip
+
+
+def report(fault):
+    print(f"{fault.outcome:10} {fault.path}:{fault.line}: {fault.kind}: {fault.before}  [{fault.seen_by}]", flush=True)
+
+
+def cell(text):
+    return text.replace("|", "\\|")
+
+
+def page(faults, seed, asked):
+    rooms = {}
+    for room, fault in faults:
+        row = rooms.setdefault(room, {"seen": 0, "survived": 0, "equivalent": 0})
+        row["equivalent" if fault.outcome == "survived" and reason(fault) else fault.outcome] += 1
+    total = {k: sum(row[k] for row in rooms.values()) for k in ("seen", "survived", "equivalent")}
+    yield "# Mutants\n"
+    yield (f"Written by `./dev mutants {asked}` at commit {seed}: small faults, planted at random in the sources of a library "
+           "(relations, signs, constants, statements, guards, extremes), and whether the unit tests of the library see them on one "
+           "rank. The number of commits is the seed, so that other faults are tried each time. An equivalent fault changes nothing "
+           "that a test may ask for; `tests/tools/mutants.py` says why.\n")
+    yield "| room | seen | survived | equivalent |\n| --- | --- | --- | --- |"
+    for room, row in (*sorted(rooms.items()), ("**all**", total)):
+        yield f"| {room} | {row['seen']} | {row['survived']} | {row['equivalent']} |"
+    changing = total["seen"] + total["survived"]
+    yield f"\n{100.0 * total['seen'] / max(changing, 1):.0f} % of the faults that change behaviour are seen.\n"
+    left = [(room, f) for room, f in faults if f.outcome == "survived"]
+    if left:
+        yield "## Not seen\n\n| place | fault | line | |\n| --- | --- | --- | --- |"
+    for _, fault in sorted(left, key=lambda item: (item[1].path, item[1].line)):
+        why = reason(fault)
+        yield (f"| `{fault.path}:{fault.line}` | {cell(fault.kind)} | `{cell(fault.before)}` | "
+               f"{cell('equivalent: ' + why) if why else cell(fault.seen_by) or 'survived'} |")
+
+
+def main():
+    build, target, number = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), int(sys.argv[3])
+    names = sys.argv[4:] or list(ROOMS)
+    seed = int(subprocess.run(["git", "rev-list", "--count", "HEAD"], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout)
+    generator = random.Random(seed)
+    paths = {}
+    for room in names:
+        for library in ROOMS[room][0]:
+            for batch in sorted((build / "batches").glob(f"chladni_{library}_[0-9]*.cpp")):
+                for path in re.findall(r'#include "([^"]+)"', batch.read_text(encoding="utf-8")):
+                    paths[path] = room
+    chosen = drawn(sorted(paths), number, generator)
+    for i, fault in enumerate(chosen):
+        fault.number = i
+    started = time.monotonic()
+    for room in names:
+        of_room = [f for f in chosen if paths[f.path] == room]
+        if not of_room:
+            continue
+        scratch = build / "mutants" / room.replace("/", "_")
+        scratch.mkdir(parents=True, exist_ok=True)
+        print(f"mutants: {len(of_room)} in {room}  [{time.monotonic() - started:.0f} s]", flush=True)
+        try_library(room, build, scratch, of_room)
+    faults = [(paths[f.path], f) for f in chosen if f.outcome in ("seen", "survived")]
+    (build / "mutants" / "last.json").write_text(json.dumps([dataclasses.asdict(f) for _, f in faults], indent=1), encoding="utf-8")
+    target.write_text("\n".join(page(faults, seed, " ".join(sys.argv[3:]))) + "\n", encoding="utf-8")
+    for _, fault in faults:
+        if fault.outcome == "survived" and not reason(fault):
+            print(f"survived: {fault.path}:{fault.line}: {fault.before}\n  as: {fault.after}")
+
+
+if __name__ == "__main__":
+    main()
