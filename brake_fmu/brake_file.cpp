@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::string_view mark = "chladni-fmu-brake 1\n";
+constexpr std::string_view mark = "chladni-fmu-brake 2\n";
 
 [[noreturn]] void refuse(const char* why)
 {
