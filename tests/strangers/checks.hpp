@@ -16,9 +16,10 @@ using Failures = std::vector<Failure>;
 struct Reference {
   Pencil pencil;
   Eigen::MatrixXd K, M;
-  int n_rigid = 0;   ///< motions without energy that the support leaves
-  Spectrum whole{};  ///< under the support
-  Spectrum held{};   ///< with all masters held
+  int n_rigid = 0;       ///< motions without energy that the support leaves
+  int n_free_rigid = 0;  ///< without a support
+  Spectrum whole{};      ///< under the support
+  Spectrum held{};       ///< with all masters held
 };
 Reference reference(const Pencil& pencil);
 

@@ -22,7 +22,8 @@ struct Pencil {
   std::vector<Entry> M{};
   std::vector<int> masters{};
   std::vector<int> held{};  ///< of the masters
-  /// A method must refuse it; a word of the message that says why. Empty: every method must
+  /// A method must refuse it; a word of the message that says why, or several divided
+  /// by |. Empty: every method must
   /// succeed.
   std::string refusal{};
 };

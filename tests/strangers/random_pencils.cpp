@@ -191,9 +191,10 @@ std::string spoil(Dice& dice, Pencil& pencil)
     pencil.held.clear();
     return "0 masters";
   }
+  if (std::ssize(pencil.masters) == pencil.n) return "leave at least one slave";
   if (!dice.chance(0.05)) return {};
   add_massless_mechanism(dice, pencil);
-  return "stiffness";
+  return "stiffness|no mass|not positive definite";
 }
 
 /// Whether the slaves can move with all masters held, or nearly so: then any method may refuse.

@@ -48,16 +48,15 @@ std::vector<int> draw_hub(Dice& dice, const std::vector<int>& of)
   return some;
 }
 
-/// Whether the turn mixes rows of the hub that are in a set with others that are not.
-bool divides_hub(const RandomRing& ring, const std::vector<int>& rows)
+/// Whether an oblique axis mixes rows of the hub that are in a set with others that are not. The
+/// hub moves in the first two harmonics.
+bool divides_hub(const SectorDraw& drawn, const std::vector<int>& rows)
 {
   constexpr double none = 1e-12;
-  const Eigen::Matrix3d R = ring.turn(1);
   const auto has = [&](int row) { return std::ranges::find(rows, row) != rows.end(); };
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      if (has(i) != has(j) && std::abs(R(i, j)) > none) return true;
-  return false;
+  const auto n_of_hub = std::ranges::count_if(rows, [](int row) { return row < 3; });
+  const bool is_oblique = drawn.axis.normalized().cwiseAbs().maxCoeff() < 1.0 - none;
+  return is_oblique && drawn.order <= 1 && n_of_hub > 0 && !(has(0) && has(1) && has(2));
 }
 
 Reduction draw_how(Dice& dice)
@@ -92,8 +91,7 @@ SectorDraw draw_sector(std::uint64_t seed)
     for (const int row : of_nodes)
       if (dice.chance(0.3)) drawn.held.push_back(row);
   }
-  const RandomRing ring(drawn.count, drawn.axis, drawn.ring);
-  drawn.is_hub_divided = divides_hub(ring, drawn.masters) || divides_hub(ring, drawn.held);
+  drawn.is_hub_divided = divides_hub(drawn, drawn.masters) || divides_hub(drawn, drawn.held);
   return drawn;
 }
 
@@ -137,33 +135,64 @@ MatrixXd free_motions(const MatrixXd& rows)
       (eigen.eigenvalues().array() <= dependent * largest).count());
 }
 
-/// The eigenvalues of the harmonic under its support, from its own matrices and coordinates.
-Reference exact_harmonic(CMS cms, const SectorDraw& drawn)
+/// The matrices of a harmonic, and its coordinates in the rows of the sector.
+struct Harmonic {
+  MatrixXd K, M, x, y;
+
+  explicit Harmonic(CMS cms)
+  {
+    Mat K_h = nullptr, M_h = nullptr, X = nullptr, Y = nullptr;
+    petsc::check(CMSGetHarmonicOperators(cms, &K_h, &M_h, nullptr));
+    petsc::check(CMSGetHarmonicCoordinates(cms, &X, &Y));
+    K = replicated_of(K_h);
+    M = replicated_of(M_h);
+    x = replicated_of(X);
+    y = Y == nullptr ? MatrixXd::Zero(x.rows(), x.cols()) : replicated_of(Y);
+  }
+  MatrixXd free_of(const std::vector<int>& rows) const
+  {
+    MatrixXd held(2 * std::ssize(rows), x.cols());
+    held << x(rows, Eigen::all), y(rows, Eigen::all);
+    return free_motions(held);
+  }
+};
+
+/// Of K, on the motions Z.
+int n_without_energy(const MatrixXd& K)
 {
-  constexpr double none = 1e-11;
-  Mat K = nullptr, M = nullptr, X = nullptr, Y = nullptr;
-  petsc::check(CMSGetHarmonicOperators(cms, &K, &M, nullptr));
-  petsc::check(CMSGetHarmonicCoordinates(cms, &X, &Y));
-  const MatrixXd x = replicated_of(X);
-  const MatrixXd y = Y == nullptr ? MatrixXd::Zero(x.rows(), x.cols()) : replicated_of(Y);
-  MatrixXd held(2 * std::ssize(drawn.held), x.cols());
-  held << x(drawn.held, Eigen::all), y(drawn.held, Eigen::all);
-  const MatrixXd Z = free_motions(held);
-  Reference exact{.pencil = {.name = "harmonic"},
-                  .K = Z.transpose() * replicated_of(K) * Z,
-                  .M = Z.transpose() * replicated_of(M) * Z};
-  if (exact.K.rows() == 0) return exact;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(exact.K, Eigen::EigenvaluesOnly);
-  exact.n_rigid = static_cast<int>(
+  constexpr double none = 1e-9;
+  if (K.rows() == 0) return 0;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(K, Eigen::EigenvaluesOnly);
+  return static_cast<int>(
       (eigen.eigenvalues().array() <= none * eigen.eigenvalues().maxCoeff()).count());
+}
+
+/// The eigenvalues of the harmonic under its support.
+Reference exact_harmonic(const Harmonic& harmonic, const std::vector<int>& held)
+{
+  const MatrixXd Z = harmonic.free_of(held);
+  Reference exact{.pencil = {.name = "harmonic"},
+                  .K = Z.transpose() * harmonic.K * Z,
+                  .M = Z.transpose() * harmonic.M * Z};
+  exact.n_free_rigid = n_without_energy(harmonic.K);
+  exact.n_rigid = n_without_energy(exact.K);
   exact.whole = spectrum(exact.K, exact.M, exact.n_rigid);
   return exact;
+}
+
+/// Why a reduction to some masters is impossible; empty where it is not.
+std::string impossible(const Harmonic& harmonic, const std::vector<int>& masters)
+{
+  const MatrixXd Z = harmonic.free_of(masters);
+  if (Z.cols() == 0) return "leave at least one slave";
+  return n_without_energy(Z.transpose() * harmonic.K * Z) > 0 ? "not positive definite" : "";
 }
 
 /// What CMS says of a draw, and what is true of it.
 struct SectorAnswer {
   Answer answer;
   Reference exact{};
+  std::string refusal{};  ///< that is due
 };
 
 SectorAnswer reduce_sector(const SectorDraw& drawn, MPI_Comm comm)
@@ -186,17 +215,21 @@ SectorAnswer reduce_sector(const SectorDraw& drawn, MPI_Comm comm)
   if (!code && !drawn.held.empty()) code = CMSSetHeld(cms, set_of(drawn.held, comm));
   if (!code) code = CMSSolve(cms);
   SectorAnswer found{.answer = answer_of(cms, code)};
-  if (!code) found.exact = exact_harmonic(cms, drawn);
+  if (drawn.is_hub_divided || drawn.masters.empty()) {
+    found.refusal = drawn.masters.empty() ? "masters" : "name all of them or none";
+    return found;
+  }
+  const Harmonic harmonic(cms);
+  found.refusal = impossible(harmonic, drawn.masters);
+  if (!code) found.exact = exact_harmonic(harmonic, drawn.held);
   return found;
 }
 
 /// What must hold of it.
-Failures failures_of(const SectorDraw& drawn, const SectorAnswer& found)
+Failures failures_of(const SectorAnswer& found)
 {
-  if (drawn.is_hub_divided || drawn.masters.empty()) {
-    const char* due = drawn.masters.empty() ? "masters" : "name all of them or none";
-    return check_refusal({.name = "", .refusal = due}, found.answer);
-  }
+  if (!found.refusal.empty())
+    return check_refusal({.name = "", .refusal = found.refusal}, found.answer);
   if (found.answer.code) return {{"refused-sector", found.answer.message}};
   Failures failures;
   check_spectrum(found.exact, found.answer, failures);
@@ -233,7 +266,7 @@ SectorTrial try_sector(std::uint64_t seed, MPI_Comm comm)
   const SectorAnswer found = reduce_sector(drawn, comm);
   SectorTrial trial{.words = words_of_sector(drawn), .failures = {}};
   if (petsc::rank(comm) > 0) return trial;
-  trial.failures = failures_of(drawn, found);
+  trial.failures = failures_of(found);
   if (petsc::size(comm) > 1)
     compare_ranks(found.answer, reduce_sector(drawn, PETSC_COMM_SELF).answer, trial.failures);
   return trial;
