@@ -73,7 +73,8 @@ MatrixXd at_rest(const MatrixXd& R, const std::vector<int>& rows)
   if (rows.empty() || R.cols() == 0) return R;
   constexpr double round_off = 1e-10;
   Eigen::ColPivHouseholderQR<MatrixXd> qr(MatrixXd(R(rows, every).transpose()));
-  qr.setThreshold(round_off);
+  // Of all of R: rows that no motion moves hold round-off, which would be their largest pivot.
+  qr.setThreshold(round_off * std::max(1.0, R.cwiseAbs().maxCoeff() / qr.maxPivot()));
   const MatrixXd Q = linear::columns_of_Q(qr, R.cols());
   return R * Q.rightCols(R.cols() - qr.rank());
 }

@@ -149,10 +149,15 @@ struct Harmonic {
     x = replicated_of(X);
     y = Y == nullptr ? MatrixXd::Zero(x.rows(), x.cols()) : replicated_of(Y);
   }
+  /// What rows leave free: of the hub they are those of the first sector, whose motion is x; of
+  /// other nodes those of each sector.
   MatrixXd free_of(const std::vector<int>& rows) const
   {
-    MatrixXd held(2 * std::ssize(rows), x.cols());
-    held << x(rows, Eigen::all), y(rows, Eigen::all);
+    std::vector<int> own;
+    for (const int row : rows)
+      if (row >= 3) own.push_back(row);
+    MatrixXd held(std::ssize(rows) + std::ssize(own), x.cols());
+    held << x(rows, Eigen::all), y(own, Eigen::all);
     return free_motions(held);
   }
 };
@@ -180,11 +185,13 @@ Reference exact_harmonic(const Harmonic& harmonic, const std::vector<int>& held)
   return exact;
 }
 
-/// Why a reduction to some masters is impossible; empty where it is not.
-std::string impossible(const Harmonic& harmonic, const std::vector<int>& masters)
+/// Why a reduction is impossible; empty where it is not.
+std::string impossible(const Harmonic& harmonic, const SectorDraw& drawn)
 {
-  const MatrixXd Z = harmonic.free_of(masters);
+  const MatrixXd Z = harmonic.free_of(drawn.masters);
   if (Z.cols() == 0) return "leave at least one slave";
+  if (drawn.how.type == std::string_view(CMSCRAIGBAMPTON) && Z.cols() < drawn.how.modes)
+    return "modes asked of";
   return n_without_energy(Z.transpose() * harmonic.K * Z) > 0 ? "not positive definite" : "";
 }
 
@@ -220,7 +227,7 @@ SectorAnswer reduce_sector(const SectorDraw& drawn, MPI_Comm comm)
     return found;
   }
   const Harmonic harmonic(cms);
-  found.refusal = impossible(harmonic, drawn.masters);
+  found.refusal = impossible(harmonic, drawn);
   if (!code) found.exact = exact_harmonic(harmonic, drawn.held);
   return found;
 }
