@@ -285,6 +285,8 @@ TEST(Faces, TakeACubicOfTheRadiusFromFourRings)
   const Part part = placed(part_at("upper", half_disc + height), plate_body(plate, face));
   const std::vector<FaceNode> nodes = face_nodes(lining_of("upper"), part, disc, "contact[1]");
   ASSERT_EQ(nodes.size(), 4u);
+  EXPECT_EQ(nodes[0].ring_parts[4], 0.0);  // the farthest of five
+  EXPECT_EQ(nodes[3].ring_parts[0], 0.0);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     EXPECT_LE((nodes[i].ring_parts.array() != 0.0).count(), 4) << i;
     for (const int power : {0, 1, 2, 3}) {

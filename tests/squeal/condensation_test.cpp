@@ -136,6 +136,23 @@ TEST(CondensationError, IsOneWhereABrakeSquealsThatDidNot)
   EXPECT_EQ(beyond.n_unstable_beyond, 1);
 }
 
+/// The error that is told is the largest of all states, those between the ends of the ranges too,
+/// and the tolerance holds for it wherever it lies: also just below an error that was reached.
+TEST(Condensation, KeepsAToleranceJustBelowTheErrorThatItReached)
+{
+  const Bodies bodies = bending_bodies();
+  for (const double end : {40.0, 600.0})
+    for (const double f_Hz : {1000.0, 1500.0}) {
+      CondensationOptions wanted = up_to(f_Hz, 1e-2);
+      wanted.speed_to = end;
+      while (wanted.tolerance > 1e-6) {
+        const double error = condense(two_plates(), bodies, wanted).error.eigenvalues;
+        ASSERT_LE(error, wanted.tolerance) << end << " rad/s, " << f_Hz << " Hz";
+        wanted.tolerance = 0.999 * error;
+      }
+    }
+}
+
 TEST(Condensation, OfADiscStaysAxisymmetric)
 {
   const Bodies bodies = bending_bodies();
