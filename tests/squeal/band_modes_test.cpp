@@ -40,7 +40,8 @@ std::vector<Complex> spectrum()
   for (int i = 0; i < 3; ++i) lambda.push_back(lambda[9]);
   lambda.emplace_back(-2.0e4, 5e3);
   for (const double frequency : {150.0, 1.99e4})  // in the corners of a band up to 2e4
-    for (const double side : {-1.0, 1.0}) lambda.emplace_back(side * 9.9e3, frequency);
+    for (const double side : {-1.0, 1.0})
+      lambda.emplace_back(side * 9.9e3, frequency + 5.0 * side);  // in this order
   return lambda;
 }
 
