@@ -84,12 +84,15 @@ class Declarer {
     declare_couplings(deck, units_, holders_, all_);
     for (const Keyword& keyword : model_)
       if (keyword.name == "BOUNDARY") boundary(keyword);
-    for (const DeckGroup& group : deck.groups) {
+    for (std::size_t g = 0; g < deck.groups.size(); ++g) {
+      const DeckGroup& group = deck.groups[g];
       const bool is_there =
           std::ranges::find(all_.shells, group.name, &DeclaredShell::group) != all_.shells.end() ||
           std::ranges::find(all_.beams, group.name, &DeclaredBeam::group) != all_.beams.end();
-      if (group.dimension > 0 && !is_there)
-        throw Error(fmt::format("the elements of \"{}\" have no section", group.name));
+      if (group.dimension == 0 || is_there) continue;
+      const auto element = std::ranges::find(deck.elements, int(g), &DeckElement::group);
+      throw Error(fmt::format("{}: *ELEMENT: element {} is of \"{}\", which no section names",
+                              element->place, element->number, group.name));
     }
     return std::move(all_);
   }

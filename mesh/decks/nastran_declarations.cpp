@@ -86,18 +86,21 @@ class Declarer {
     declare_couplings(deck_, units_, holders_, all_);
     supports();
     declare_points(cards_, deck_, units_, holders_, all_);
-    for (const DeckGroup& group : deck_.groups) check_has_section(group);
+    for (std::size_t g = 0; g < deck_.groups.size(); ++g) check_has_section(g);
     return std::move(all_);
   }
 
  private:
-  void check_has_section(const DeckGroup& group) const
+  void check_has_section(std::size_t g) const
   {
+    const DeckGroup& group = deck_.groups[g];
     const bool is_there =
         std::ranges::find(all_.shells, group.name, &DeclaredShell::group) != all_.shells.end() ||
         std::ranges::find(all_.beams, group.name, &DeclaredBeam::group) != all_.beams.end();
-    if (group.dimension > 0 && !is_there)
-      throw Error(fmt::format("its elements of {} have no such property", group.name));
+    if (group.dimension == 0 || is_there) return;
+    const auto element = std::ranges::find(deck_.elements, int(g), &DeckElement::group);
+    throw Error(fmt::format("{}: element {} is of {}, and there is no such property",
+                            element->place, element->number, group.name));
   }
 
   bool is_used(const std::string& group) const

@@ -26,13 +26,16 @@ constexpr double tilt = 1e-2;  // rad: normals of a mesh of a curved shell are a
 /// Whether anything but a shell takes part in the motion of a node.
 std::vector<bool> have_other_stiffness(const mesh::Mesh& mesh, const DofMap& dofs)
 {
-  std::vector<bool> have(dofs.n_nodes(), false);
+  std::vector<bool> have(dofs.n_nodes(), false), is_of_element(dofs.n_nodes(), false);
   for (const mesh::ElementBlock& block : mesh.blocks) {
+    for (const int node : block.nodes) is_of_element[node] = true;
     if (block.shape != mesh::Shape::line) continue;
     for (const int node : block.nodes) have[node] = true;
   }
   for (int node = 0; node < dofs.n_nodes(); ++node) {
-    if (dofs.is_dependent(node)) have[node] = have[dofs.reference(node)] = true;
+    if (dofs.is_dependent(node)) have[node] = true;
+    // The end of a lever, which no element has, resists nothing.
+    if (dofs.is_dependent(node) && is_of_element[node]) have[dofs.reference(node)] = true;
     if (node >= dofs.n_mesh_nodes() || !dofs.is_plain(node)) have[node] = true;
   }
   for (const HarmonicRing& ring : dofs.harmonic_rings())
@@ -63,14 +66,17 @@ constexpr const char* couple_instead =
     "or couple a group of nodes rigidly ([[coupling]], type \"rigid\") and take the coupling's "
     "name";
 
-/// The nodes of a name that have a drilling axis n with visit(n) true: the first, or none.
+/// The nodes of a name, or those that they follow, that have a drilling axis n with
+/// is_wrong(n, arm) true: the first, or none. The arm leads from the node to the one that is named.
 template <typename IsWrong>
 std::optional<int> first_wrong(const mesh::Mesh& mesh, const DofMap& dofs, const std::string& name,
                                const MatrixX3d& axes, const IsWrong& is_wrong)
 {
-  for (const int node : dofs.named_nodes(mesh, name)) {
-    const Vector3d n = axes.row(node);
-    if (!n.isZero() && is_wrong(n)) return node;
+  for (const int named : dofs.named_nodes(mesh, name)) {
+    const bool follows = dofs.is_dependent(named);
+    const int node = follows ? dofs.reference(named) : named;
+    const Vector3d n = axes.row(node), arm = follows ? dofs.arm(named) : Vector3d(0.0, 0.0, 0.0);
+    if (!n.isZero() && is_wrong(n, arm)) return node;
   }
   return std::nullopt;
 }
@@ -84,9 +90,14 @@ bool acts_about(const Vector3d& n, const Eigen::Matrix3d& A)
 void refuse_mass(const mesh::Mesh& mesh, const DofMap& dofs, const MatrixX3d& axes,
                  const PointMass& mass)
 {
-  const Eigen::Matrix3d J = point_mass_matrix(mass).bottomRightCorner<3, 3>();
+  Eigen::Matrix3d J;  // about the node
   const auto node =
-      first_wrong(mesh, dofs, mass.at, axes, [&](const Vector3d& n) { return acts_about(n, J); });
+      first_wrong(mesh, dofs, mass.at, axes, [&](const Vector3d& n, const Vector3d& arm) {
+        PointMass moved = mass;
+        for (std::size_t c = 0; c < 3; ++c) moved.offset[c] += arm[Eigen::Index(c)];
+        J = point_mass_matrix(moved).bottomRightCorner<3, 3>();
+        return acts_about(n, J);
+      });
   if (!node) return;
   const Vector3d n = axes.row(*node);
   throw Error(
@@ -98,16 +109,20 @@ void refuse_mass(const mesh::Mesh& mesh, const DofMap& dofs, const MatrixX3d& ax
 void refuse_spring(const mesh::Mesh& mesh, const DofMap& dofs, const MatrixX3d& axes,
                    const Spring& spring)
 {
-  const auto rotations = [](const std::array<double, 6>& k) -> Eigen::Matrix3d {
-    return Vector3d(k[3], k[4], k[5]).asDiagonal();
+  const auto rotations = [](const std::array<double, 6>& k, const Vector3d& arm) {
+    const Eigen::Matrix3d X = cross_matrix(arm);
+    Eigen::Matrix3d A = X.transpose() * Vector3d(k[0], k[1], k[2]).asDiagonal() * X;
+    A.diagonal() += Vector3d(k[3], k[4], k[5]);
+    return A;
   };
-  const Eigen::Matrix3d k = rotations(spring.stiffness), d = rotations(spring.damping);
   std::vector<std::string> ends{spring.at};
   if (spring.to) ends.push_back(*spring.to);
   for (const std::string& end : ends) {
-    const auto node = first_wrong(mesh, dofs, end, axes, [&](const Vector3d& n) {
-      return acts_about(n, k) || acts_about(n, d);
-    });
+    const auto node =
+        first_wrong(mesh, dofs, end, axes, [&](const Vector3d& n, const Vector3d& arm) {
+          return acts_about(n, rotations(spring.stiffness, arm)) ||
+                 acts_about(n, rotations(spring.damping, arm));
+        });
     if (!node) continue;
     throw Error(fmt::format(
         "spring at {}, so that a spring or damper about it holds nothing; take this component "
@@ -123,10 +138,11 @@ std::optional<std::pair<std::string, int>> first_drilling_support(const mesh::Me
                                                                   std::span<const Support> supports)
 {
   for (const Support& support : supports) {
-    const auto node = first_wrong(mesh, dofs, support.group, axes, [&](const Vector3d& n) {
-      return std::ranges::any_of(support.components,
-                                 [&](int c) { return c >= 3 && std::abs(n[c - 3]) > tilt; });
-    });
+    const auto node = first_wrong(
+        mesh, dofs, support.group, axes, [&](const Vector3d& n, const Vector3d& /*arm*/) {
+          return std::ranges::any_of(support.components,
+                                     [&](int c) { return c >= 3 && std::abs(n[c - 3]) > tilt; });
+        });
     if (node) return std::pair(support.group, *node);
   }
   return std::nullopt;
@@ -173,12 +189,17 @@ void refuse_drilling(const mesh::Mesh& mesh, const DofMap& dofs, std::span<const
   for (const Load& any_load : loads) {
     const auto* load = std::get_if<NodalLoad>(&any_load);
     if (!load) continue;
-    const Vector3d moment(load->moment.data());
-    if (moment.isZero(0.0)) continue;
+    const Vector3d moment(load->moment.data()), force(load->force.data());
+    const std::vector<int> nodes = dofs.named_nodes(mesh, load->group);
+    const bool has_lever =
+        std::ranges::any_of(nodes, [&](int node) { return dofs.is_dependent(node); });
+    if (moment.isZero(0.0) && !has_lever) continue;
     const MatrixX3d axes = drilling_axes(mesh, dofs);
-    const auto node = first_wrong(mesh, dofs, load->group, axes, [&](const Vector3d& n) {
-      return std::abs(n.dot(moment)) > tilt * moment.norm();
-    });
+    const auto node =
+        first_wrong(mesh, dofs, load->group, axes, [&](const Vector3d& n, const Vector3d& arm) {
+          const Vector3d of_node = moment + cross_matrix(arm) * force;
+          return std::abs(n.dot(of_node)) > tilt * of_node.norm();
+        });
     if (!node) continue;
     throw Error(fmt::format(
         "load on {}, so that a moment about it would only turn this node; give forces instead, {}",

@@ -11,7 +11,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from running import start, summary
+from running import run, start, summary
 
 N_X, N_Y, STEP, THICKNESS = 6, 4, 0.2, 0.01  # m
 YOUNG, POISSON, DENSITY = 2.07e11, 0.29, 7820.0
@@ -189,11 +189,8 @@ class Abaqus:
         instance = rng.random() < 0.4
         if instance:
             self.keyword("PART", ("NAME", "P"))
-        self.model(rng.random() < 0.5)
         doubled = rng.random() < 0.15
-        if doubled:
-            self.keyword("ELEMENT", ("TYPE", "S4"), ("ELSET", "PLATE"))
-            self.data(5001, *plate.elements[0][1])
+        self.model(rng.random() < 0.5, doubled)
         prefix = ""
         if instance:
             prefix = "P-1."
@@ -215,7 +212,7 @@ class Abaqus:
         file.write_text("\n".join(self.lines))
         return file, doubled
 
-    def model(self, halves):
+    def model(self, halves, doubled):
         plate = self.plate
         self.keyword("NODE")
         for number, x in plate.nodes.items():
@@ -225,6 +222,8 @@ class Abaqus:
             for label, corners, of in plate.elements:
                 if of == half:
                     self.data(label, *corners)
+            if doubled and plate.elements[0][2] == half:
+                self.data(5001, *plate.elements[0][1])
         if halves and self.rng.random() < 0.5:
             self.keyword("ELSET", ("ELSET", "PLATE"), "INTERNAL")
             self.data("E1", "E2")
@@ -412,11 +411,18 @@ def reference_nodes(programs, folder):
     hung = [*rbe2, "GRID,901,,1.4,-.2,.3", "RBAR,901,900,901,123456", "GRID,902,,1.8,.9,-.1", "RBE2,902,901,123456,902"]
     chain = of_deck(programs, folder, "chain.bdf", plain_bulk(*hung, "CONM2,1,901,,5.", "CONM2,2,902,,3.,.1"))
     yield from differ("two masses at a chain of levers", chain, by_offset, 1e-9)
-    at_node = of_deck(programs, folder, "node.bdf", plain_bulk("GRID,901,,1.4,-.2,.3", "RBE2,901,21,123456,901", "CONM2,1,901,,5."))
-    beside = of_deck(programs, folder, "beside.bdf", plain_bulk("CONM2,1,21,,5.,.2,-.6,.3"))
+    # Along the normal of a shell's node; across it nothing but a numerical stiffness would resist.
+    up = ["GRID,901,,1.2,.4,{}", "RBE2,901,21,123456,901", "CONM2,1,901,,5.{}"]
+    at_node = of_deck(programs, folder, "node.bdf", plain_bulk(up[0].format(".3"), up[1], up[2].format("")))
+    beside = of_deck(programs, folder, "beside.bdf", plain_bulk("CONM2,1,21,,5.,0.,0.,.3"))
     yield from differ("a mass at a lever of a node", at_node, beside, 1e-9)
+    (folder / "across.bdf").write_text(plain_bulk("GRID,901,,1.4,.4,.3", *up[1:2], up[2].format("")))
+    run(programs / "chladni", "import", folder / "across.bdf", "--length-unit", "m", "--output", folder / "across.toml")
+    done = start(programs / "chladni", "modes", folder / "across.toml", "--output", folder / "across")
+    if done.returncode != 1 or "numerical stiffness" not in done.stderr:
+        yield f"a lever across the normal of a shell's node: {done.returncode} {done.stderr}"
     # A mean whose reference node is elsewhere: the load's arm, or a mass with an offset.
-    rbe3 = "RBE3,900,,{},123456,1.,123,7,14\n,21,28,35"
+    rbe3 = "RBE3,900,,{},123456,1.,123,7,14\n,21,28,35,6,13"
     mean = of_deck(programs, folder, "mean.bdf", plain_bulk("GRID,900,,1.5,.4,.2", rbe3.format(900), "CONM2,1,900,,5."))
     centre = of_deck(programs, folder, "centre.bdf", plain_bulk("GRID,901,,1.2,.4,0.", rbe3.format(901), "CONM2,1,901,,5.,.3,0.,.2"))
     yield from differ("a mean away from its nodes", mean, centre, 1e-9)

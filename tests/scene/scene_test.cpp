@@ -836,6 +836,16 @@ TEST(Scene, ReadsATolerancePromisedUpToAFrequency)
   EXPECT_EQ(scene.reduce.tolerance->up_to_Hz, 8e3);
 }
 
+TEST(SceneError, NamesWhatACouplingToANodeDoesNotTake)
+{
+  expect_messages({
+      {"group = \"inner_edge\"", "group = \"inner_edge\"\nto = \"track\"",
+       "scene.toml:20: coupling.name = \"hub\": is of a reference node; with `to` there is none"},
+      {"group = \"inner_edge\"", "group = \"inner_edge\"\nat = [0.0, 1.0]",
+       "scene.toml:22: coupling.at = [ 0.0, 1.0 ]: must be three numbers [x, y, z]"},
+  });
+}
+
 TEST(SceneError, SaysWhatIsNotAvailableYet)
 {
   expect_messages({
@@ -1106,7 +1116,11 @@ TEST(SceneError, SaysWhatAFileIsThatIsNoScene)
   EXPECT_EQ(why("empty.toml"), "the scene file is empty");
   EXPECT_NE(why("disc.body.h5").find("is a result file"), std::string::npos);
   EXPECT_NE(why("disc.msh").find("`file` of [mesh]"), std::string::npos);
-  EXPECT_NE(why("hat.bdf").find("gmsh FILE"), std::string::npos);
+  for (const char* name : {"disc.MSH", "disc.med", "disc.VTU"})
+    EXPECT_NE(why(name).find("`file` of [mesh]"), std::string::npos) << name;
+  for (const char* name : {"hat.bdf", "hat.INP"})
+    EXPECT_NE(why(name).find("chladni import"), std::string::npos) << name;
+  EXPECT_NE(why("hat.vtk").find("gmsh FILE"), std::string::npos);
   EXPECT_THROW(read_scene(folder.string()), Error);
   std::filesystem::remove_all(folder);
 }
