@@ -72,6 +72,7 @@ class Following {
 
  private:
   void check(const Coupling& coupling) const;
+  void check_held() const;
   bool is_coupling(const std::string& name) const
   {
     return std::ranges::find(couplings_, name, &Coupling::name) != couplings_.end();
@@ -177,6 +178,21 @@ void Following::add(int index)
     follow(node, nodes_.reference_node(coupling.name).value(), index);
 }
 
+/// Nothing gives stiffness to a reference node that nodes of no element alone follow.
+void Following::check_held() const
+{
+  std::vector<bool> is_held(std::size_t(nodes_.n_nodes()), false);
+  for (const mesh::ElementBlock& block : mesh_.blocks)
+    for (const int node : block.nodes)
+      if (nodes_.is_dependent(node)) is_held[std::size_t(nodes_.reference(node))] = true;
+  for (const Coupling& coupling : couplings_) {
+    if (coupling.kind != CouplingKind::rigid || !coupling.has_reference_node()) continue;
+    if (is_held[std::size_t(nodes_.reference_node(coupling.name).value())]) continue;
+    throw Error(fmt::format("{}: no node of \"{}\" belongs to an element", describe(coupling),
+                            coupling.group));
+  }
+}
+
 /// A rigid body on a rigid body is one on the last of the chain.
 CoupledNodes Following::follow_chains() &&
 {
@@ -196,6 +212,7 @@ CoupledNodes Following::follow_chains() &&
     }
     nodes_.references[node] = end;
   }
+  check_held();
   return std::move(nodes_);
 }
 
