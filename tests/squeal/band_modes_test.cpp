@@ -38,7 +38,7 @@ std::vector<Complex> spectrum()
   std::vector<Complex> lambda;
   for (int i = 1; i <= 196; ++i) lambda.emplace_back(-3.0 * i, 130.0 * i * (1.0 + 0.2 * i));
   for (int i = 0; i < 3; ++i) lambda.push_back(lambda[9]);
-  lambda.emplace_back(-2.0e4, 5e3);
+  lambda.emplace_back(-2.0e4, 4.9e3);
   for (const double frequency : {150.0, 1.99e4})  // in the corners of a band up to 2e4
     for (const double side : {-1.0, 1.0})
       lambda.emplace_back(side * 9.9e3, frequency + 5.0 * side);  // in this order
