@@ -271,20 +271,19 @@ void refuse_aliases(const Disc& disc, const ModalBody& body)
   for (const DiscRing& ring : disc.rings) {
     const std::map<int, Diameters> found = diameters_in_band(disc, ring, body);
     const auto first = std::ranges::find_if(
-        found, [&](const auto& mode) { return 2 * mode.second.told >= ring.n_nodes; });
+        found, [&](const auto& mode) { return 2 * mode.second.told > ring.n_nodes; });
     if (ring.n_nodes == 0 || first == found.end()) continue;
     int most = 0;
     for (const auto& [i, diameters] : found) most = std::max(most, diameters.told);
     const auto& [i, diameters] = *first;
-    throw Error(fmt::format(
-        "ring \"{}\" has {} nodes, on which mode {} ({:.1f} Hz) of {} nodal diameters looks like "
-        "{}: "
-        "n diameters need 2 n + 2 nodes, the {} of the modes kept {}; give the ring {} nodes or "
-        "more, keep fewer modes in [body], or choose modes with use_modes",
-        ring.name, ring.n_nodes, i + 1, body.omega[i] / (2.0 * pi), diameters.told,
-        diameters.told == diameters.seen ? std::string("its partner")
-                                         : fmt::format("one of {}", diameters.seen),
-        most, 2 * most + 2, 2 * most + 2));
+    throw Error(
+        fmt::format("ring \"{}\" has {} nodes, on which mode {} ({:.1f} Hz) of {} nodal diameters "
+                    "looks like one "
+                    "of {}: n diameters need 2 n + 2 nodes, the {} of the modes kept {}; give the "
+                    "ring {} nodes "
+                    "or more, keep fewer modes in [body], or choose modes with use_modes",
+                    ring.name, ring.n_nodes, i + 1, body.omega[i] / (2.0 * pi), diameters.told,
+                    diameters.seen, most, 2 * most + 2, 2 * most + 2));
   }
 }
 

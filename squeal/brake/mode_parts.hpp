@@ -33,9 +33,9 @@ ModeParts mode_parts(const Disc& disc, const mbs_export::ModalBody& body, const 
 
 /// Checks that the nodes of each ring tell the modes of the disc from others. A mode of n nodal
 /// diameters looks on N < 2 n + 1 nodes like one of |n - m N| diameters with another slope along
-/// the ring, by which it is found where the nodes rotate; the mode of N / 2 diameters lacks its
-/// partner. Modes of interfaces and those beyond the range do not count: they stand for many
-/// others.
+/// the ring, by which it is found where the nodes rotate; of N / 2 diameters the ring shows one
+/// mode of a pair, which takes no part (`ModeParts::alternating`). Modes of interfaces and those
+/// beyond the range do not count: they stand for many others.
 /// @param disc  made of `body`
 /// @throws chladni::Error with the mode, and the number of nodes that suffices for all of them.
 void refuse_aliases(const Disc& disc, const mbs_export::ModalBody& body);
