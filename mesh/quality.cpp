@@ -296,7 +296,7 @@ class Parts {
  private:
   std::size_t root(const ElementOfMesh& of)
   {
-    auto at = std::size_t(first_[std::size_t(of.block)] + of.element);
+    auto at = std::size_t(first_[std::size_t(of.block)]) + std::size_t(of.element);
     while (std::size_t(parent_[at]) != at) {
       parent_[at] = parent_[std::size_t(parent_[at])];
       at = std::size_t(parent_[at]);

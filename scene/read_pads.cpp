@@ -107,8 +107,11 @@ std::optional<squeal::PadGrid> read_grid(const Table& pad, RingsOf of)
 std::optional<double> read_patch(const Table& pad)
 {
   if (!pad.has("radius")) return std::nullopt;
-  if (pad.has("grid"))
-    pad.refuse("radius", "is that of a round face, and `grid` gives the points of another one");
+  if (pad.has("grid")) {
+    pad.refuse(
+        "radius",
+        "is for a round face, and `grid` gives the points of another; leave out one of them");
+  }
   return pad.number("radius");
 }
 

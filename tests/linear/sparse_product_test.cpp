@@ -138,10 +138,13 @@ TEST(SparseProduct, SeesThatAMatrixGotOtherEntries)
     return inner_product(on_ranks(I, MatrixXd::Identity(n, n)), Y);
   };
   const petsc::Matrix A = blocks_of_three(n);
+  const MatrixXd full = MatrixXd::NullaryExpr(n, 9, [](Eigen::Index i, Eigen::Index j) {
+    return std::sin(1.0 + double(i) + 0.7 * double(i * j));  // the same on all ranks
+  });
   for (const bool is_coupled : {false, true}) {
     if (is_coupled) couple_ends_of_each_rank(A);
-    for (const MatrixXd& X : {last_rows_of_ranks(A, 5), last_rows_of_ranks(A, 12),
-                              MatrixXd(MatrixXd::Random(n, 9)), mixed_columns(n, 5)}) {
+    for (const MatrixXd& X :
+         {last_rows_of_ranks(A, 5), last_rows_of_ranks(A, 12), full, mixed_columns(n, 5)}) {
       const MatrixXd found = all_rows(sparse_product(A, on_ranks(A, X)));
       EXPECT_LT((found - replicate(A) * X).norm(), 1e-12 * X.norm()) << is_coupled;
     }

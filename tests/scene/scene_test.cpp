@@ -626,10 +626,10 @@ TEST(Scene, ReadsPadsWithAGridABodyAndACaliper)
   const auto error_after = [&](const std::string& from, const std::string& to) {
     return error_of(replaced(disc, plain, replaced(good, from, to)));
   };
-  EXPECT_EQ(
-      error_after("grid = {", "radius = 0.02, grid = {"),
-      "scene.toml:39: squeal.pads.radius is that of a round face, and `grid` gives the points "
-      "of another one");
+  EXPECT_EQ(error_after("grid = {", "radius = 0.02, grid = {"),
+            "scene.toml:39: squeal.pads.radius = 0.02: is for a round face, and `grid` gives the "
+            "points of "
+            "another; leave out one of them");
   const std::string round = replaced(plain, "damping = 1.0", "damping = 1.0, radius = 0.02");
   EXPECT_EQ(parse_scene(replaced(disc, plain, round), "scene.toml").squeal->pads.at(0).radius,
             0.02);

@@ -260,7 +260,8 @@ int rank_of_held_motions(const Reference& exact)
   const MatrixXd R = scale.asDiagonal() * eigen.eigenvectors().leftCols(exact.n_rigid);
   const Eigen::JacobiSVD<MatrixXd> at_held(MatrixXd(R(exact.pencil.held, Eigen::all)));
   const VectorXd& sizes = at_held.singularValues();
-  return static_cast<int>((sizes.array() > none * sizes[0]).count());
+  // Of all of R: rows that no motion moves hold round-off.
+  return static_cast<int>((sizes.array() > none * R.cwiseAbs().maxCoeff()).count());
 }
 
 }  // namespace
