@@ -115,8 +115,8 @@ double refusal_of_reference_without_stiffness()
   mesh.groups.push_back({.name = "loose", .dimension = 0, .nodes = {mesh.n_nodes() - 1}});
   const std::vector<int> owners(mesh.n_nodes(), 0);
   const std::vector<Coupling> tip{{.name = "tip", .group = "loose"}};
-  const DofMap dofs = make_dof_map(mesh, {.couplings = tip}, owners, 1);
-  return words_missing([&] { check_stiffness_of_all_nodes(mesh, dofs); }, {"\"tip\"", "element"});
+  return words_missing([&] { make_dof_map(mesh, {.couplings = tip}, owners, 1); },
+                       {"\"tip\"", "element"});
 }
 
 }  // namespace

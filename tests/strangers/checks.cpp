@@ -249,19 +249,19 @@ void check_free_modes(const Reference& exact, const Reduction& how, const Answer
   }
 }
 
-/// How many of the motions without energy the support prevents.
+/// How many of the motions without energy the support prevents. In coordinates of unit stiffness
+/// each of them has the length 1, and rows that none moves hold round-off.
 int rank_of_held_motions(const Reference& exact)
 {
-  constexpr double none = 1e-6;
+  constexpr double none = 1e-11;
   if (exact.n_rigid == 0 || exact.pencil.held.empty()) return 0;
-  const VectorXd scale = exact.K.diagonal().cwiseSqrt().cwiseInverse();
+  const VectorXd scale = exact.K.diagonal().unaryExpr(
+      [](double K_ii) { return K_ii > 0.0 ? 1.0 / std::sqrt(K_ii) : 1.0; });
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
       MatrixXd(scale.asDiagonal() * exact.K * scale.asDiagonal()));
-  const MatrixXd R = scale.asDiagonal() * eigen.eigenvectors().leftCols(exact.n_rigid);
-  const Eigen::JacobiSVD<MatrixXd> at_held(MatrixXd(R(exact.pencil.held, Eigen::all)));
-  const VectorXd& sizes = at_held.singularValues();
-  // Of all of R: rows that no motion moves hold round-off.
-  return static_cast<int>((sizes.array() > none * R.cwiseAbs().maxCoeff()).count());
+  const MatrixXd motions = eigen.eigenvectors().leftCols(exact.n_rigid);
+  const Eigen::JacobiSVD<MatrixXd> at_held(MatrixXd(motions(exact.pencil.held, Eigen::all)));
+  return static_cast<int>((at_held.singularValues().array() > none).count());
 }
 
 }  // namespace

@@ -223,7 +223,8 @@ SectorAnswer reduce_sector(const SectorDraw& drawn, MPI_Comm comm)
   if (!code) code = CMSSolve(cms);
   SectorAnswer found{.answer = answer_of(cms, code)};
   if (drawn.is_hub_divided || drawn.masters.empty()) {
-    found.refusal = drawn.masters.empty() ? "masters" : "name all of them or none";
+    found.refusal =
+        drawn.masters.empty() ? "masters" : "name all of them or none|leave at least one slave";
     return found;
   }
   const Harmonic harmonic(cms);
