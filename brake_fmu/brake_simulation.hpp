@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "brake_fmu/driven_disc.hpp"
+#include "brake_fmu/driven_brake.hpp"
 #include "fmu/simulation.hpp"
 
 namespace chladni::brake_fmu {

@@ -1,5 +1,5 @@
-#include "brake_fmu/brake_file.hpp"
 #include "brake_fmu/brake_simulation.hpp"
+#include "brake_fmu/driven_brake.hpp"
 #include "fmu/component.hpp"
 
 namespace chladni::fmu {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "report/numbers_json.hpp"
+#include "report/json.hpp"
 
 namespace chladni::cases {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "cases/reduce_scene.hpp"
 #include "report/json.hpp"
-#include "report/output.hpp"
+#include "report/text_table.hpp"
 
 namespace chladni::cases {
 

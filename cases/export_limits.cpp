@@ -10,7 +10,7 @@
 
 #include "common/error.hpp"
 #include "plate/plate_options.hpp"
-#include "report/output.hpp"
+#include "report/text_table.hpp"
 
 namespace chladni::cases {
 namespace {

@@ -6,11 +6,11 @@
 #include <map>
 #include <set>
 
-#include "cases/attachments.hpp"
 #include "cases/chosen_mesh.hpp"
+#include "cases/fe_model.hpp"
 #include "linear/progress.hpp"
-#include "mbs_export/responses/measured_beside.hpp"
-#include "mbs_export/responses/response_option_error.hpp"
+#include "mbs_export/responses/frequency_responses.hpp"
+#include "mbs_export/responses/response_options.hpp"
 #include "plate/dofs/drilling.hpp"
 #include "reduce/harmonic_response.hpp"
 

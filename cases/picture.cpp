@@ -6,7 +6,7 @@
 
 #include "cases/ranks.hpp"
 #include "common/petsc.hpp"
-#include "mesh/element_parts.hpp"
+#include "mesh/element_types.hpp"
 
 namespace chladni::cases {
 PictureNodes picture_nodes(const mesh::Mesh& mesh, scene::PictureChoice choice)

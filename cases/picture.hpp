@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "cases/node_rows.hpp"
+#include "cases/fe_model.hpp"
 #include "mbs_export/reduced_system.hpp"
 #include "mesh/mesh.hpp"
 #include "plate/dofs/dof_map.hpp"

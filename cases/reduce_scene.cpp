@@ -7,33 +7,28 @@
 #include <utility>
 
 #include "cases/chosen_mesh.hpp"
-#include "cases/described_system.hpp"
-#include "cases/enrich_scene.hpp"
-#include "cases/fe_body.hpp"
-#include "cases/mass_integrals.hpp"
+#include "cases/fe_model.hpp"
+#include "cases/moving_body.hpp"
 #include "cases/picture.hpp"
 #include "cases/possible_sector.hpp"
 #include "cases/ranks.hpp"
 #include "cases/reduce_sectors.hpp"
-#include "cases/reduce_steps.hpp"
-#include "cases/response_goal.hpp"
 #include "cases/scene_support.hpp"
 #include "cases/section_forces.hpp"
-#include "cases/stiffening.hpp"
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
-#include "files/file_digest.hpp"
-#include "linear/cholesky/cholesky_types.hpp"
+#include "files/input_file.hpp"
+#include "linear/cholesky/petsc_factor.hpp"
 #include "mesh/partition.hpp"
-#include "reduce/basis_rows.hpp"
-#include "reduce/project_form.hpp"
+#include "reduce/craig_bampton.hpp"
 #include "reduce_export/reduced_system.hpp"
 #include "report/version.hpp"
 
 namespace chladni::cases {
-namespace {
 
 using Eigen::MatrixXd;
+
+namespace {
 
 FeModel assemble_scene(const scene::Scene& scene, mesh::Mesh mesh)
 {
@@ -257,6 +252,47 @@ ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solve
     if (n > 0) certificate.mesh_compliances = std::move(compliances);
   }
   return summary;
+}
+
+std::vector<report::Stage> stages_of(const reduce::ReduceOptions& wanted)
+{
+  using report::Times;
+  std::vector<report::Stage> stages{
+      {"mesh", 1.0}, {"assembly", 3.0}, {"partition", 1.0}, {"factorization", 4.0}};
+  const report::Stage constraint{"constraint modes", 4.0};
+  const auto add = [&](const std::vector<report::Stage>& more) {
+    stages.insert(stages.end(), more.begin(), more.end());
+  };
+  if (wanted.method == reduce::Method::guyan)
+    add({constraint});
+  else if (wanted.method == reduce::Method::mixed_interface)
+    add({constraint, {"mixed-interface modes", 25.0}, {"residual flexibility", 5.0}});
+  else if (wanted.method == reduce::Method::automatic)
+    add({constraint,
+         {"fixed-interface modes", 25.0, Times::unknown},
+         {"mixed-interface modes", 25.0},
+         {"residual flexibility", 5.0}});
+  else if (wanted.method != reduce::Method::craig_bampton)
+    add({constraint, {"free-interface modes", 25.0}, {"residual flexibility", 5.0}});
+  else if (wanted.tolerance)
+    add({constraint, {"fixed-interface modes", 40.0, Times::unknown}});
+  else
+    add({{"fixed-interface modes", 20.0}, constraint});
+  add({{"projection", 6.0},
+       {"error estimates", 8.0},
+       {"condition", 1.0},
+       {"count of eigenvalues", 15.0},
+       {"residuals", 2.0},
+       {"mass integrals", 25.0},
+       {"pictures", 1.0}});
+  return stages;
+}
+
+std::vector<report::Stage> stages_of_sectors()
+{
+  return {{"mesh", 2.0},       {"assembly", 4.0},   {"modes of harmonics", 14.0},
+          {"harmonics", 60.0}, {"whole body", 2.0}, {"mass integrals", 16.0},
+          {"pictures", 2.0}};
 }
 
 }  // namespace chladni::cases

@@ -5,11 +5,13 @@
 #include <vector>
 
 #include "cases/phases.hpp"
-#include "linear/cholesky/cholesky_types.hpp"
+#include "linear/cholesky/petsc_factor.hpp"
 #include "linear/solver_options.hpp"
 #include "mbs_export/reduced_system.hpp"
 #include "mesh/mesh.hpp"
+#include "reduce/reduce_options.hpp"
 #include "reduce/reduction.hpp"
+#include "report/progress.hpp"
 #include "scene/scene.hpp"
 
 namespace chladni::cases {
@@ -46,5 +48,11 @@ mbs_export::Provenance provenance(const scene::Scene& scene, const SaidOfSolvers
 /// @throws chladni::Error on all ranks alike.
 ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solvers,
                            const ReduceProgress& progress);
+
+/// The phases of a reduction in their order, with their usual share of the time, per cent.
+std::vector<report::Stage> stages_of(const reduce::ReduceOptions& wanted);
+
+/// The phases of a reduction from one sector, with their usual share of the time, per cent.
+std::vector<report::Stage> stages_of_sectors();
 
 }  // namespace chladni::cases

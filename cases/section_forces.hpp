@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cases/node_rows.hpp"
+#include "cases/fe_model.hpp"
 #include "mbs_export/reduced_system.hpp"
 #include "plate/assembly/assemble.hpp"
 #include "scene/scene.hpp"

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "cases/harmonic_part.hpp"
 #include "cases/sector_model.hpp"
-#include "mbs_export/mass_integrals.hpp"
+#include "cases/whole_body.hpp"
+#include "mbs_export/inertia.hpp"
 #include "mbs_export/reduced_system.hpp"
 #include "plate/assembly/inertia_integrals.hpp"
 #include "scene/scene.hpp"

@@ -6,10 +6,10 @@
 #include <unsupported/Eigen/KroneckerProduct>
 #include <utility>
 
-#include "cases/reduce_steps.hpp"
+#include "cases/fe_model.hpp"
 #include "common/eigen_every.hpp"
-#include "cyclic/sparse_rows.hpp"
-#include "cyclic/turn.hpp"
+#include "cyclic/harmonic_coordinates.hpp"
+#include "cyclic/sector.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 
 namespace chladni::cases {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cases/sector_model.hpp"
-#include "mbs_export/mass_integrals.hpp"
+#include "mbs_export/inertia.hpp"
 #include "plate/assembly/inertia_integrals.hpp"
 
 namespace chladni::cases {

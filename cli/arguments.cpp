@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "report/output.hpp"
-#include "scene/names.hpp"
+#include "report/text_table.hpp"
+#include "scene/keys.hpp"
 
 namespace chladni::cli {
 

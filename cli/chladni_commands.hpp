@@ -7,7 +7,7 @@
 #include "cli/seal.hpp"
 #include "cli/self_description.hpp"
 #include "linear/solver_options.hpp"
-#include "report/page/report.hpp"
+#include "report/page/pages.hpp"
 
 /// The subcommands of the program `chladni`. Each writes its files at its end and prints its
 /// summary on the first rank. Each throws chladni::Error when it fails, before it writes a file.

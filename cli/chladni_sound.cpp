@@ -7,17 +7,17 @@
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
 #include "common/error.hpp"
-#include "files/text_file.hpp"
-#include "mbs_export/files/provenance.hpp"
+#include "files/output_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "report/fe/sound_report.hpp"
-#include "report/fe/sound_vtu.hpp"
+#include "report/fe/vtu.hpp"
 #include "report/origin.hpp"
 #include "report/progress.hpp"
 #include "report/version.hpp"
 #include "sound/sound_file.hpp"
 #include "sound/study.hpp"
-#include "squeal/results/result_file.hpp"
-#include "squeal/transient/wav_file.hpp"
+#include "squeal/results/squeal_results.hpp"
+#include "squeal/transient/wav.hpp"
 
 namespace chladni::cli {
 namespace {

@@ -9,12 +9,11 @@
 #include <utility>
 
 #include "cases/ranks.hpp"
-#include "cases/reduce_stages.hpp"
+#include "cases/reduce_scene.hpp"
 #include "cases/scene_body.hpp"
 #include "common/error.hpp"
-#include "files/text_file.hpp"
-#include "mbs_export/files/body_file.hpp"
-#include "mbs_export/files/reduced_file.hpp"
+#include "files/output_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "report/origin.hpp"
 #include "report/progress.hpp"
 #include "report/version.hpp"

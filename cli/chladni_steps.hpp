@@ -7,7 +7,6 @@
 #include "cli/chladni_commands.hpp"
 #include "cli/reserve_outputs.hpp"
 #include "mbs_export/modal_body.hpp"
-#include "report/cost.hpp"
 #include "report/progress.hpp"
 #include "scene/scene.hpp"
 

@@ -1,6 +1,6 @@
 // Makes meshes by Gmsh for `chladni`, which starts it: nothing to be started by hand.
-#include "confinement/helper.hpp"
-#include "mesh/gmsh/answer.hpp"
+#include "confinement/helper_process.hpp"
+#include "mesh/gmsh/gmsh.hpp"
 #include "sound/gmsh/air.hpp"
 
 int main()

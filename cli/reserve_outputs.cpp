@@ -6,8 +6,8 @@
 
 #include "cli/writer_mark.hpp"
 #include "common/error.hpp"
-#include "mbs_export/files/provenance.hpp"
-#include "report/output.hpp"
+#include "mbs_export/files/body_files.hpp"
+#include "report/text_table.hpp"
 
 namespace chladni::cli {
 

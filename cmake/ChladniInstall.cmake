@@ -61,19 +61,19 @@ set(light_headers
     mbs_export/make_body.hpp
     mbs_export/check_body.hpp
     mbs_export/held_modes.hpp
-    mbs_export/mass_integrals.hpp
-    mbs_export/files/body_file.hpp
-    mbs_export/files/reduced_file.hpp
+    mbs_export/inertia.hpp
+    mbs_export/files/body_files.hpp
+    mbs_export/files/body_files.hpp
     mbs_export/formats/export_error.hpp
-    mbs_export/formats/exudyn.hpp
-    mbs_export/formats/fmu.hpp
-    mbs_export/formats/matlab.hpp
-    mbs_export/formats/mbdyn.hpp
-    mbs_export/formats/nastran.hpp
-    mbs_export/formats/sid.hpp
+    mbs_export/formats/formats.hpp
+    mbs_export/formats/fmu_archive.hpp
+    mbs_export/formats/formats.hpp
+    mbs_export/formats/formats.hpp
+    mbs_export/formats/formats.hpp
+    mbs_export/formats/formats.hpp
     squeal/brake/disc.hpp
-    squeal/study/run.hpp
-    squeal/results/result_file.hpp
+    squeal/study/study.hpp
+    squeal/results/squeal_results.hpp
     squeal/stability/stability_search.hpp
     squeal/stability/stability_map.hpp
     squeal/stability/rotation_stability.hpp
@@ -82,7 +82,7 @@ set(light_headers
     squeal/transient/transient.hpp
     squeal/models/brake.hpp
     squeal/models/flexible_disc.hpp
-    squeal/models/model_brake.hpp
+    squeal/models/brake.hpp
     squeal/models/rigid_disc.hpp
     squeal/brake/pad_system.hpp
     squeal/brake/radiation.hpp)
@@ -94,7 +94,7 @@ set(fe_headers
     linear/cholesky/sylvester.hpp
     linear/lanczos/block_lanczos.hpp
     linear/progress.hpp
-    linear/read_solver_options.hpp
+    linear/solver_options.hpp
     mesh/generators.hpp
     mesh/mesh.hpp
     mesh/partition.hpp
@@ -103,17 +103,17 @@ set(fe_headers
     plate/elements/shell_element.hpp
     plate/dofs/dof_map.hpp
     plate/dofs/free_motions.hpp
-    plate/dofs/supports.hpp
+    plate/dofs/dof_map.hpp
     plate/assembly/assemble.hpp
-    plate/assembly/loads.hpp
+    plate/assembly/assemble.hpp
     plate/assembly/recovery.hpp
-    plate/assembly/rigid_motions.hpp
-    reduce/project_form.hpp
-    reduce/reduction.hpp
-    reduce/held_masters.hpp
+    plate/assembly/assemble.hpp
     reduce/craig_bampton.hpp
-    reduce/basis_rows.hpp
-    reduce/guyan_stiffness.hpp
+    reduce/reduction.hpp
+    reduce/support.hpp
+    reduce/craig_bampton.hpp
+    reduce/craig_bampton.hpp
+    reduce/static_condensation.hpp
     reduce/mixed_interface.hpp
     reduce/error_estimates.hpp
     reduce/completeness.hpp

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 #include <petscmat.h>
+#include <petscsys.h>
 #include <slepceps.h>
 
 #include <cerrno>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/error.hpp"
 
@@ -15,6 +18,7 @@ static_assert(!PetscDefined(USE_COMPLEX), "Chladni needs the real build of PETSc
 static_assert(PetscDefined(USE_REAL_DOUBLE), "Chladni needs the double-precision build of PETSc");
 
 /// Owned PETSc objects and the bridge from PETSc's error codes to chladni::Error.
+
 namespace chladni::petsc {
 
 /// Thrown when a PETSc call failed; PETSc has already reported the reason.
@@ -126,6 +130,94 @@ inline int size(MPI_Comm comm)
   int n = 1;
   MPI_Comm_size(comm, &n);
   return n;
+}
+
+}  // namespace chladni::petsc
+
+/// Differences between the versions of PETSc and SLEPc from 3.18 on.
+
+namespace chladni::petsc {
+
+/// The value of a number that PETSc is to choose.
+#if PETSC_VERSION_LT(3, 22, 0)
+inline constexpr int automatic = PETSC_DEFAULT;
+#else
+inline constexpr int automatic = PETSC_DETERMINE;
+#endif
+
+/// The type of the argument from which an object's function reads its options.
+#if PETSC_VERSION_LT(3, 23, 0)
+using OptionItems = PetscOptionItems*;
+#else
+using OptionItems = PetscOptionItems;
+#endif
+
+}  // namespace chladni::petsc
+
+#if PETSC_VERSION_LT(3, 20, 0)
+#define PetscAssertPointer PetscValidPointer  // NOLINT(readability-identifier-naming)
+#endif
+
+namespace chladni::petsc {
+
+/// Keeps something as long as a PETSc object lives, such as the arrays of a matrix that refers to
+/// them.
+/// @param name  of what is kept, one for each kind; replaces what was kept by this name
+template <typename T>
+void keep_with(PetscObject object, const char* name, std::unique_ptr<T> kept)
+{
+  PetscContainer container = nullptr;
+  check(PetscContainerCreate(PetscObjectComm(object), &container));
+  check(PetscContainerSetPointer(container, kept.release()));
+  check(PetscContainerSetUserDestroy(container, [](void* attached) -> PetscErrorCode {
+    delete static_cast<T*>(attached);
+    return 0;
+  }));
+  check(PetscObjectCompose(object, name, reinterpret_cast<PetscObject>(container)));
+  check(PetscContainerDestroy(&container));  // the object keeps it
+}
+
+/// What `keep_with` keeps by a name, or null.
+template <typename T>
+T* kept_with(PetscObject object, const char* name)
+{
+  PetscContainer container = nullptr;
+  void* kept = nullptr;
+  check(PetscObjectQuery(object, name, reinterpret_cast<PetscObject*>(&container)));
+  if (container != nullptr) check(PetscContainerGetPointer(container, &kept));
+  return static_cast<T*>(kept);
+}
+
+/// The global indices of a set that this rank holds.
+inline std::vector<PetscInt> own_indices(IS set)
+{
+  PetscInt n = 0;
+  const PetscInt* indices = nullptr;
+  check(ISGetLocalSize(set, &n));
+  check(ISGetIndices(set, &indices));
+  std::vector<PetscInt> own(indices, indices + n);
+  check(ISRestoreIndices(set, &indices));
+  return own;
+}
+
+/// Those of rows of A, on the rank that owns them, counted from its first row.
+inline std::vector<PetscInt> own_rows(IS rows, Mat A)
+{
+  PetscInt first = 0;
+  check(MatGetOwnershipRange(A, &first, nullptr));
+  std::vector<PetscInt> own = own_indices(rows);
+  for (PetscInt& row : own) row -= first;
+  return own;
+}
+
+/// How many indices of a set the ranks before this one hold.
+/// @note   Collective on the communicator of the set.
+inline PetscInt indices_before(IS set)
+{
+  PetscInt n = 0, before = 0;
+  check(ISGetLocalSize(set, &n));
+  MPI_Exscan(&n, &before, 1, MPIU_INT, MPI_SUM, communicator(set));
+  return rank(communicator(set)) == 0 ? 0 : before;
 }
 
 }  // namespace chladni::petsc

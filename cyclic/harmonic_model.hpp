@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "cyclic/harmonic_coordinates.hpp"
+#include "linear/solver_options.hpp"
 #include "reduce/reduction.hpp"
 
 namespace chladni::cyclic {
@@ -76,5 +78,47 @@ std::vector<double> lowest_frequencies(const SectorMatrices& sector,
 
 /// The rows of the transformation from the model to some DOFs of the sector.
 SectorMotion sector_motion(const HarmonicModel& model, std::span<const int> dofs);
+
+/// Modes in pairs: mode 2 i + 1 is mode 2 i a quarter of a period later.
+struct ExactPairs {
+  /// [n x n_paired] orthonormal: each paired mode as a combination of the given ones
+  Eigen::MatrixXd W;
+  /// [n_paired] rad/s, the same for both modes of a pair
+  Eigen::VectorXd omega;
+};
+
+/// Separates the pairs of modes that a solver returns in any mixture. A mode without its partner is
+/// left out.
+/// @param omega  [n] ascending, rad/s
+/// @param S      [n x n] Phi^T M J Phi, skew: the modes under the quarter-period shift J
+ExactPairs exact_pairs(const Eigen::VectorXd& omega, const Eigen::MatrixXd& S);
+
+/// Natural modes of one harmonic under a support, with unit modal mass of the whole body.
+struct HarmonicModes {
+  Eigen::VectorXd omega;  ///< [k] rad/s, ascending; rigid-body motions first, as 0
+  /// Number of modes that each one stands for: 2 if a mirror leaves one of a pair.
+  int multiplicity;
+  SectorMotion motion;  ///< [n_dofs x k] of all DOFs of the sector
+};
+
+struct HarmonicModesOptions {
+  int n_modes;      ///< number of modes of the solved motions, which are half with a mirror
+  int n_rigid = 0;  ///< number of rigid-body motions among these
+  linear::SolverOptions solver;  ///< on the communicator of each rank
+};
+
+/// The lowest modes of a harmonic, by block Lanczos; fewer if the harmonic has fewer.
+/// @param is_held  [n_dofs] of the sector: equal at matching and at mirrored nodes, and for
+///                 components that a turn mixes
+/// @throws chladni::Error as `reduce::natural_modes`.
+HarmonicModes harmonic_modes(const SectorMatrices& sector, const HarmonicCoordinates& coordinates,
+                             const std::vector<bool>& is_held, const HarmonicModesOptions& options);
+
+/// Whether all modes of a harmonic under a support lie above a frequency, in rad/s, by a Cholesky
+/// factor of K - omega^2 M, which takes a tenth of the time of a few modes. What lies within a
+/// millionth above the frequency counts as below it.
+/// @param is_held  as above
+bool all_modes_lie_above(const SectorMatrices& sector, const HarmonicCoordinates& coordinates,
+                         const std::vector<bool>& is_held, double omega);
 
 }  // namespace chladni::cyclic

@@ -1,4 +1,4 @@
-#include "cyclic/harmonic_operators.hpp"
+#include "cyclic/harmonic_coordinates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,15 +6,15 @@
 #include <numeric>
 
 #include "common/eigen_every.hpp"
-#include "common/petsc_compat.hpp"
-#include "cyclic/sector_dofs.hpp"
+#include "common/petsc.hpp"
+#include "cyclic/sector.hpp"
 #include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::cyclic {
 
-namespace {
-
 using Eigen::MatrixXd;
+
+namespace {
 
 double phase_angle(int order, int count)
 {

@@ -1,16 +1,19 @@
 #pragma once
 
 #include <Eigen/Core>
+
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "files/replacement.hpp"
+#include "files/output_file.hpp"
 
 /// A thin layer over the HDF5 C library: atomic writing, sealed files (seal.hpp), strict reading.
 /// Paths of datasets are relative to the root ("rings/track/W"); groups on the way are created.
+
 namespace chladni::files {
 
 using IntegerMatrix = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -145,5 +148,24 @@ class Reader {
   std::uint64_t size_ = 0;                 ///< of the file, bytes
   mutable std::uint64_t memory_left_ = 0;  ///< that further values may take, bytes
 };
+
+}  // namespace chladni::files
+
+/// The contents of a file, for programs that show them unchanged.
+
+namespace chladni::files {
+
+/// A dataset that is stored in the file itself.
+struct Item {
+  enum class Kind { reals, integers, texts };
+  std::string name;
+  Kind kind;
+  std::size_t rank;  ///< number of extents
+  std::string unit;  ///< its attribute; empty if there is none
+};
+
+/// All datasets except views of others, by their names.
+/// @throws chladni::Error naming file and dataset for one that claims more than the file can hold.
+std::vector<Item> contents(const Reader& reader);
 
 }  // namespace chladni::files

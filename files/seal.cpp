@@ -4,6 +4,7 @@
 
 #include <array>
 #include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -14,16 +15,55 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "files/hdf5_handle.hpp"
-#include "files/regular_file.hpp"
-#include "files/replacement.hpp"
-#include "files/superblock.hpp"
-#include "files/text_file.hpp"
+#include "files/hdf5_objects.hpp"
+#include "files/input_file.hpp"
+#include "files/output_file.hpp"
 #include "files/trial_reading.hpp"
-#include "files/xxh64.hpp"
 
 namespace chladni::files {
+
 namespace {
+
+constexpr std::size_t size_of_address = 8;
+
+/// Little-endian, as the format has them.
+std::uint64_t get_address(std::fstream& file, std::size_t at)
+{
+  std::array<char, size_of_address> bytes{};
+  file.seekg(std::streamoff(at)).read(bytes.data(), bytes.size());
+  std::uint64_t address = 0;
+  for (std::size_t i = bytes.size(); i-- > 0;)
+    address = address << 8 | static_cast<unsigned char>(bytes[i]);
+  return address;
+}
+
+void put_address(std::fstream& file, std::size_t at, std::uint64_t address)
+{
+  std::array<char, size_of_address> bytes{};
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(address >> (8 * i));
+  file.seekp(std::streamoff(at)).write(bytes.data(), bytes.size());
+}
+
+/// Writes into the superblock of an HDF5 file (versions 0 and 1, libhdf5's default) that HDF5
+/// begins at byte `start`, and shifts its end address likewise. libhdf5 finds the beginning itself;
+/// other readers trust the superblock. Newer superblocks are left unchanged.
+/// @return false if it could not be read or written
+bool place_superblock(const std::string& path, std::size_t start)
+{
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  // Signature (8), versions (5), size of addresses (1), ...; version 1 has four bytes more.
+  std::array<char, 14> beginning{};
+  file.seekg(std::streamoff(start)).read(beginning.data(), beginning.size());
+  const auto version = static_cast<unsigned char>(beginning[8]),
+             size = static_cast<unsigned char>(beginning[13]);
+  if (!file) return false;
+  if (version > 1 || size != size_of_address) return true;
+  const std::size_t at = start + (version == 0 ? 24 : 28);  // begin, free space, end
+  const std::uint64_t begin = get_address(file, at), end = get_address(file, at + 16);
+  put_address(file, at, start);
+  put_address(file, at + 16, end - begin + start);  // of a file that is cut short beyond its bytes
+  return static_cast<bool>(file.flush());
+}
 
 constexpr std::string_view hdf5_begins = "\x89HDF\r\n\x1a\n";
 constexpr std::string_view seal_begins = "Chladni seal 1\nbytes ";

@@ -7,6 +7,7 @@
 /// text the length of the file and the digest of the bytes after them. libhdf5 trusts damaged
 /// metadata and may read beyond its memory; the seal detects damage before libhdf5 sees it. It has
 /// no key: whoever forges a file can seal it, so a seal gives no privileges.
+
 namespace chladni::files {
 
 /// Bytes; the smallest user block of HDF5.

@@ -20,10 +20,7 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "files/foreign_parts.hpp"
-#include "files/hdf5_dataset.hpp"
-#include "files/hdf5_handle.hpp"
-#include "files/visit_objects.hpp"
+#include "files/hdf5_objects.hpp"
 
 namespace chladni::files {
 namespace {

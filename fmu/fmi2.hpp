@@ -3,6 +3,7 @@
 #include <cstddef>
 
 /// Types of FMI 2.0 for co-simulation and model exchange, laid out as the standard requires.
+
 namespace chladni::fmu::fmi2 {
 
 using Boolean = int;

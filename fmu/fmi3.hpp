@@ -4,6 +4,7 @@
 #include <cstdint>
 
 /// Types of FMI 3.0, laid out as the standard requires.
+
 namespace chladni::fmu::fmi3 {
 
 using Reference = std::uint32_t;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "fmu/modal_model.hpp"
-#include "fmu/propagator.hpp"
 #include "fmu/simulation.hpp"
 
 namespace chladni::fmu {

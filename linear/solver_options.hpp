@@ -6,6 +6,7 @@
 #include <string>
 
 /// Options of a reduction as values: no option is looked up while it runs.
+
 namespace chladni::linear {
 
 /// Where PETSc's objects inside (KSP, PC, EPS, MUMPS) find their options.
@@ -54,5 +55,14 @@ struct SolverOptions {
   std::string scratch = {};
   bool operator==(const SolverOptions&) const = default;
 };
+
+/// Reads the options of the reduction that do not belong to PETSc's own objects, and lists them for
+/// -help. Options that are not given keep the values of `defaults`.
+/// @param defaults  its `petsc` also says where the options are read from
+/// @note   Collective on `comm`.
+/// @throws chladni::Error on all ranks for an invalid value.
+/// Options: `-<prefix>memory <MiB>`, `-<prefix>modes_solver block-lanczos|krylov-schur`,
+/// `-<prefix>lanczos_block_size`, `-<prefix>lanczos_subspace`, `-<prefix>lanczos_tolerance`
+SolverOptions read_solver_options(MPI_Comm comm, const SolverOptions& defaults = {});
 
 }  // namespace chladni::linear

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "common/error.hpp"
+
 namespace chladni::mbs_export {
 
 /// A tolerance for the largest relative error of the frequency responses at the loaded attachment
@@ -59,6 +61,22 @@ struct BodyOptions {
   KeptModes keep;
   std::vector<InterfaceModes> interface_modes;
   Damping damping;
+};
+
+/// Thrown when a reduced system cannot do what the scene's table [body] asks for; names the key.
+class BodyOptionError : public Error {
+ public:
+  /// @param key  "keep.modes"
+  BodyOptionError(std::string key, std::string why)
+      : Error(key + ": " + why), key_(std::move(key)), why_(std::move(why))
+  {}
+
+  const std::string& key() const { return key_; }
+  const std::string& why() const { return why_; }
+
+ private:
+  std::string key_;
+  std::string why_;
 };
 
 }  // namespace chladni::mbs_export

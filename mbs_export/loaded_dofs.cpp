@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 
-#include "mbs_export/attachment_motion.hpp"
-#include "mbs_export/body_option_error.hpp"
-#include "mbs_export/contact_rings.hpp"
-#include "mbs_export/drilling.hpp"
+#include "mbs_export/attachment_dofs.hpp"
+#include "mbs_export/body_options.hpp"
+#include "mbs_export/held_modes.hpp"
+#include "mbs_export/modal_body.hpp"
 
 namespace chladni::mbs_export {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "mbs_export/attachment_dofs.hpp"
 #include "mbs_export/body_options.hpp"
-#include "mbs_export/held_dofs.hpp"
 #include "mbs_export/reduced_system.hpp"
 
 namespace chladni::mbs_export {

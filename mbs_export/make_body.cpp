@@ -3,28 +3,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "common/eigen_every.hpp"
-#include "mbs_export/attachment_motion.hpp"
-#include "mbs_export/body_damping.hpp"
-#include "mbs_export/body_option_error.hpp"
-#include "mbs_export/constrained_modes.hpp"
-#include "mbs_export/contact_rings.hpp"
-#include "mbs_export/held_body.hpp"
-#include "mbs_export/held_dofs.hpp"
-#include "mbs_export/interface_modes.hpp"
+#include "common/error.hpp"
+#include "linear/dense/dense_solvers.hpp"
+#include "mbs_export/attachment_dofs.hpp"
+#include "mbs_export/body_options.hpp"
+#include "mbs_export/free_modes.hpp"
+#include "mbs_export/held_modes.hpp"
 #include "mbs_export/loaded_dofs.hpp"
-#include "mbs_export/rigid_body.hpp"
+#include "mbs_export/modal_body.hpp"
+#include "mbs_export/response_error.hpp"
 #include "mbs_export/select_by_tolerance.hpp"
 
 namespace chladni::mbs_export {
-namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+namespace {
 
 /// All modes of the held body in the coordinates of the reduced system.
 struct HeldModes {
@@ -222,6 +223,183 @@ ModalBody make_body(const ReducedSystem& reduced, const BodyOptions& options)
                       .condition_directions = shift.condition_directions};
   body.selection = choice.table;
   return body;
+}
+
+namespace {
+
+/// Linear between the frequencies of the table.
+double ratio_at(double f_Hz, Index mode, const Damping& damping)
+{
+  const std::vector<double>& at = damping.at_Hz;
+  constexpr double same = 1e-9;
+  if (f_Hz < at.front() * (1.0 - same) || f_Hz > at.back() * (1.0 + same)) {
+    throw BodyOptionError(
+        "damping.ratio",
+        fmt::format("mode {} has {:.6g} Hz, and the ratios are given from {:.6g} to {:.6g} Hz; add "
+                    "a frequency, or keep fewer modes",
+                    mode + 1, f_Hz, at.front(), at.back()));
+  }
+  const auto above = std::clamp<std::ptrdiff_t>(std::ranges::upper_bound(at, f_Hz) - at.begin(), 1,
+                                                std::ssize(at) - 1);
+  const auto i = static_cast<std::size_t>(above);
+  const double s = std::clamp((f_Hz - at[i - 1]) / (at[i] - at[i - 1]), 0.0, 1.0);
+  return (1.0 - s) * damping.ratios[i - 1] + s * damping.ratios[i];
+}
+
+VectorXd ratios_of(const VectorXd& omega, const Damping& damping)
+{
+  const Index n = omega.size();
+  VectorXd zeta = VectorXd::Zero(n);
+  if (!damping.at_Hz.empty()) {
+    for (Index i = 0; i < n; ++i)
+      if (omega[i] > 0.0) zeta[i] = ratio_at(omega[i] / (2.0 * std::numbers::pi), i, damping);
+    return zeta;
+  }
+  if (damping.ratios.size() == 1) return VectorXd::Constant(n, damping.ratios[0]);
+  if (Index(damping.ratios.size()) != n) {
+    throw BodyOptionError(
+        "damping.ratio",
+        fmt::format("{} ratios for {} modes; give one for all, one for each, or a table over the "
+                    "frequency",
+                    damping.ratios.size(), n));
+  }
+  return Eigen::Map<const VectorXd>(damping.ratios.data(), n);
+}
+
+/// Of dampers and loss factors of the model.
+BodyDamping of_model(const ReducedSystem& reduced, const BodyCoordinates& modes)
+{
+  if (reduced.C.size() == 0 && reduced.H.size() == 0) {
+    throw BodyOptionError("damping.type",
+                          "'matrix' needs dampers or loss factors, and this system has none");
+  }
+  const Index n = modes.omega.size();
+  BodyDamping damping{.C = MatrixXd::Zero(n, n)};
+  if (reduced.C.size() > 0) damping.C = modes.T.transpose() * reduced.C * modes.T;
+  if (reduced.H.size() == 0) return damping;
+  const MatrixXd H = modes.T.transpose() * reduced.H * modes.T;
+  damping.H = 0.5 * (H + H.transpose());
+  damping.C += viscous_equivalent(damping.H, modes.omega);
+  return damping;
+}
+
+}  // namespace
+
+MatrixXd viscous_equivalent(const MatrixXd& H, const VectorXd& omega)
+{
+  const VectorXd scale =
+      omega.unaryExpr([](double w) { return w > 0.0 ? 1.0 / std::sqrt(w) : 0.0; });
+  return scale.asDiagonal() * H * scale.asDiagonal();
+}
+
+BodyDamping body_damping(const ReducedSystem& reduced, const BodyCoordinates& modes,
+                         const Damping& damping)
+{
+  const auto& omega = modes.omega;
+  switch (damping.type) {
+    case Damping::Type::none:
+      return {};
+    case Damping::Type::rayleigh:
+      return {.C = VectorXd(damping.alpha + damping.beta * omega.array().square()).asDiagonal()};
+    case Damping::Type::matrix:
+      return of_model(reduced, modes);
+    case Damping::Type::modal:
+      break;
+  }
+  return {.C = VectorXd(2.0 * ratios_of(omega, damping).array() * omega.array()).asDiagonal()};
+}
+
+namespace {
+
+/// An orthonormal basis of the columns, each of which counts alike.
+MatrixXd orthonormal(MatrixXd shapes)
+{
+  constexpr double independent = 1e-10;
+  Index n = 0;
+  for (Index j = 0; j < shapes.cols(); ++j)
+    if (const double norm = shapes.col(j).norm(); norm > 0.0)
+      shapes.col(n++) = shapes.col(j) / norm;
+  if (n == 0) return MatrixXd(shapes.rows(), 0);
+  const MatrixXd unit = shapes.leftCols(n);
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(unit);
+  qr.setThreshold(independent);
+  return linear::columns_of_Q(qr, qr.rank());
+}
+
+/// Frequencies and kinds of the vectors that take the place of the modes.
+struct Condensed {
+  VectorXd omega;
+  std::vector<ModeKind> kinds;
+  MatrixXd V;  ///< [n_modes x k]
+};
+
+Condensed ritz_vectors(const ModalBody& body, const MatrixXd& Q)
+{
+  constexpr double same = 1e-6, at_rest = 1e-13;  // of the squares of frequencies
+  const VectorXd lambda = body.omega.cwiseAbs2();
+  const MatrixXd K = Q.transpose() * lambda.asDiagonal() * Q;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(K);
+  Condensed modes{ritz.eigenvalues(), {}, Q * ritz.eigenvectors()};
+  const double largest = modes.omega.cwiseAbs().maxCoeff();
+  for (Index j = 0; j < modes.omega.size(); ++j) {
+    double& value = modes.omega[j];
+    const bool is_rigid = value <= at_rest * largest && body.n_free_rigid > 0;
+    if (is_rigid) value = 0.0;
+    const double residual = (lambda.cwiseProduct(modes.V.col(j)) - value * modes.V.col(j)).norm();
+    modes.kinds.push_back(is_rigid                   ? ModeKind::rigid
+                          : residual <= same * value ? ModeKind::constrained
+                                                     : ModeKind::interface);
+  }
+  modes.omega = modes.omega.cwiseMax(0.0).cwiseSqrt();
+  return modes;
+}
+
+/// A V; of what the body does not have, nothing.
+MatrixXd along(const MatrixXd& A, const MatrixXd& V)
+{
+  if (A.cols() == 0) return {};
+  return A * V;
+}
+
+MatrixXd projected(const MatrixXd& A, const MatrixXd& V)
+{
+  if (A.size() == 0) return {};
+  return V.transpose() * A * V;
+}
+
+}  // namespace
+
+ModalBody condensed(const ModalBody& body, const MatrixXd& shapes)
+{
+  if (shapes.rows() != body.n_modes()) {
+    throw Error(fmt::format("shapes of {} rows cannot condense a body of {} modes", shapes.rows(),
+                            body.n_modes()));
+  }
+  const MatrixXd Q = orthonormal(shapes);
+  if (Q.cols() == 0) throw Error("a body cannot be condensed to no shape at all");
+  Condensed modes = ritz_vectors(body, Q);
+  const MatrixXd& V = modes.V;
+  ModalBody result = body;
+  result.omega = modes.omega;
+  result.kinds = std::move(modes.kinds);
+  result.C = projected(body.C, V);
+  result.H = projected(body.H, V);
+  result.attachment_modes = along(body.attachment_modes, V);
+  for (ContactRing& ring : result.rings) {
+    ring.W = along(ring.W, V);
+    ring.W_r = along(ring.W_r, V);
+    ring.W_t = along(ring.W_t, V);
+  }
+  result.picture.transformation = along(body.picture.transformation, V);
+  for (ResultantModes& one : result.resultants) one.S = one.S * V;
+  if (body.mass_integrals) result.mass_integrals = in_coordinates(*body.mass_integrals, V);
+  if (body.stiffening) result.stiffening = in_coordinates(*body.stiffening, V);
+  if (body.sector_harmonics) {
+    const MatrixXd I = MatrixXd::Identity(body.n_modes(), body.n_modes());
+    result.sector_harmonics = in_coordinates(*body.sector_harmonics, I, V);
+  }
+  result.selection = {};
+  return result;
 }
 
 }  // namespace chladni::mbs_export

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "mesh/mesh_options.hpp"
 
 namespace chladni::mesh {
 
@@ -67,5 +70,43 @@ void drop_unused_nodes(Mesh& mesh, std::span<const std::string> kept = {});
 
 /// The FNV-1a hash of coordinates and connectivity, in hexadecimal.
 std::string checksum(const Mesh& mesh);
+
+/// A position or a direction in space.
+using Vector = std::array<double, 3>;
+
+inline Vector minus(const Vector& a, const Vector& b)
+{
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+inline double dot(const Vector& a, const Vector& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+inline double norm(const Vector& a)
+{
+  return std::sqrt(dot(a, a));
+}
+
+inline Vector cross(const Vector& a, const Vector& b)
+{
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The direction of `a` with length 1; `a` must not vanish.
+inline Vector unit(const Vector& a)
+{
+  const double length = norm(a);
+  return {a[0] / length, a[1] / length, a[2] / length};
+}
+
+/// Adds a group for each ring: its nodes at equal angles on a circle about the z axis, the first on
+/// the x axis, ordered by angle. Nodes that miss their place by less than a thousandth of the
+/// distance between two neighbours are moved there, with a note. In a sector the group has the
+/// nodes of the sector, including those of both cut edges.
+/// @throws chladni::Error with the angle when no node of the mesh stands at a place, or when
+///         several do, one above the other, and the ring has no z.
+void add_rings(Mesh& mesh, std::span<const RingOptions> rings);
 
 }  // namespace chladni::mesh

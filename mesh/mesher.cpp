@@ -10,13 +10,11 @@
 #include <optional>
 
 #include "common/error.hpp"
-#include "confinement/confine.hpp"
-#include "confinement/helper.hpp"
-#include "confinement/system_calls.hpp"
+#include "confinement/helper_process.hpp"
+#include "confinement/sandbox.hpp"
 #include "mesh/decks/read_deck.hpp"
+#include "mesh/mesh_archive.hpp"
 #include "mesh/own_readers.hpp"
-#include "mesh/packed_mesh.hpp"
-#include "mesh/packed_options.hpp"
 
 namespace chladni::mesh {
 namespace {

@@ -1,7 +1,7 @@
 #include "mesh/own_readers.hpp"
 
 #include "mesh/decks/read_deck.hpp"
-#include "mesh/exchange/read_exchange.hpp"
+#include "mesh/exchange/exchange_mesh.hpp"
 
 namespace chladni::mesh {
 

@@ -16,9 +16,8 @@
 #include <utility>
 
 #include "common/error.hpp"
-#include "mesh/element_parts.hpp"
-#include "mesh/tangents.hpp"
-#include "mesh/vectors.hpp"
+#include "mesh/element_types.hpp"
+#include "mesh/mesh.hpp"
 
 namespace chladni::mesh {
 

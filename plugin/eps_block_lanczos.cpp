@@ -2,23 +2,29 @@
 // restart for symmetric problems, standard or generalised, of any shift.
 // Source: Grimes, Lewis and Simon, SIAM J. Matrix Anal. Appl. 15 (1994) 228; as
 // linear/lanczos/block_lanczos.
+
+#include "plugin/eps_block_lanczos.hpp"
+
 #include <slepc/private/epsimpl.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
-#include "common/petsc_compat.hpp"
+#include "common/eigen_every.hpp"
+#include "common/petsc.hpp"
+#include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/orthonormalisation.hpp"
+#include "linear/kernels/small_matrices.hpp"
 #include "linear/lanczos/block_iteration.hpp"
 #include "plugin/chladni_cms.h"
+#include "plugin/cms_impl.hpp"
 #include "plugin/eps_operator.hpp"
-#include "plugin/eps_order.hpp"
 #include "plugin/eps_refusals.hpp"
-#include "plugin/eps_residuals.hpp"
-#include "plugin/eps_sequences.hpp"
 #include "plugin/eps_slices.hpp"
-#include "plugin/guard.hpp"
 
 using namespace chladni;  // NOLINT(google-build-using-namespace)
 using namespace plugin;   // NOLINT(google-build-using-namespace)
@@ -460,3 +466,212 @@ PetscErrorCode CMSRegisterEPS()
   PetscCall(EPSRegister(type_name, create));
   PetscFunctionReturn(0);
 }
+
+namespace chladni::plugin {
+
+namespace {
+
+/// The problem of an EPS with work vectors.
+class Pencil {
+ public:
+  explicit Pencil(EPS eps) : taken_(shift_in_place(eps))
+  {
+    A_ = problem_matrices(eps).A;
+    B_ = problem_matrices(eps).B;
+    for (petsc::Vector* v : {&a_, &b_, &w_, &r_, &Bx_})
+      petsc::check(MatCreateVecs(A_, v->put(), nullptr));
+    take_diagonal(A_, a_);
+    take_diagonal(B_, b_);
+  }
+
+  PairErrors errors(Vec x, const Eigenvalue& value)
+  {
+    constexpr double eps = std::numeric_limits<double>::epsilon(), round_off = 1e-12;
+    const double size = weigh_rows(value.lambda);
+    take_residual(x, value.lambda);
+    PetscReal length = 0.0, residual = 0.0, terms = 0.0;
+    petsc::check(VecNorm(x, NORM_2, &length));
+    petsc::check(VecNorm(r_, NORM_2, &residual));
+    PairErrors errors{};
+    errors.printed = residual / (std::abs(value.lambda) * length);
+    errors.round_off = 100.0 * eps * size / std::abs(value.lambda);
+    const double scaled = scaled_length(r_), mass = scaled_length(Bx_);
+    petsc::check(VecPointwiseMult(r_, w_, x));  // what cancels in A x
+    petsc::check(VecNorm(r_, NORM_2, &terms));
+    errors.scaled = scaled <= round_off * terms ? 0.0 : scaled / (value.distance * mass);
+    return errors;
+  }
+
+ private:
+  /// The absolute diagonal; 1 where A is the identity or a shell matrix that does not give it.
+  static void take_diagonal(Mat A, Vec d)
+  {
+    PetscBool is_given = PETSC_FALSE;
+    petsc::check(VecSet(d, 1.0));
+    if (A) petsc::check(MatHasOperation(A, MATOP_GET_DIAGONAL, &is_given));
+    if (is_given) petsc::check(MatGetDiagonal(A, d));
+    petsc::check(VecAbs(d));
+  }
+
+  /// w <- the root of |A_ii| + |lambda B_ii|, by which rows are divided. Returns the largest sum.
+  double weigh_rows(double lambda)
+  {
+    PetscReal largest = 0.0;
+    petsc::check(VecWAXPY(w_, std::abs(lambda), b_, a_));
+    petsc::check(VecMax(w_, nullptr, &largest));
+    petsc::check(VecShift(w_, 1e-16 * largest));
+    petsc::check(VecSqrtAbs(w_));
+    return largest;
+  }
+
+  /// r <- A x - lambda B x, and B x
+  void take_residual(Vec x, double lambda)
+  {
+    petsc::check(MatMult(A_, x, r_));
+    if (B_)
+      petsc::check(MatMult(B_, x, Bx_));
+    else
+      petsc::check(VecCopy(x, Bx_));
+    petsc::check(VecAXPY(r_, taken_ - lambda, Bx_));
+  }
+
+  double scaled_length(Vec v)
+  {
+    PetscReal length = 0.0;
+    petsc::check(VecPointwiseDivide(v, v, w_));
+    petsc::check(VecNorm(v, NORM_2, &length));
+    return length;
+  }
+
+  double taken_;  ///< from A
+  Mat A_ = nullptr, B_ = nullptr;
+  petsc::Vector a_, b_, w_, r_, Bx_;
+};
+
+/// A X, or B X, of a matrix that may do nothing but multiply vectors.
+petsc::Matrix times(Mat A, Mat X)
+{
+  PetscInt n = 0;
+  petsc::Matrix Y;
+  petsc::check(MatGetSize(X, nullptr, &n));
+  petsc::check(MatDuplicate(X, MAT_COPY_VALUES, Y.put()));
+  if (A == nullptr) return Y;
+  for (PetscInt j = 0; j < n; ++j) {
+    Vec x = nullptr, y = nullptr;
+    petsc::check(MatDenseGetColumnVecRead(X, j, &x));
+    petsc::check(MatDenseGetColumnVecWrite(Y, j, &y));
+    petsc::check(MatMult(A, x, y));
+    petsc::check(MatDenseRestoreColumnVecWrite(Y, j, &y));
+    petsc::check(MatDenseRestoreColumnVecRead(X, j, &x));
+  }
+  return Y;
+}
+
+/// X S
+petsc::Matrix combined(Mat X, const Eigen::MatrixXd& S)
+{
+  petsc::Matrix Y = linear::uninitialized_dense(X, S.cols());
+  petsc::check(MatZeroEntries(Y));
+  linear::add_product(1.0, X, S, Y);
+  return Y;
+}
+
+/// The places of values in the order that the user wants.
+std::vector<PetscInt> wanted_order(EPS eps, const std::vector<double>& lambda)
+{
+  std::vector<PetscInt> order(lambda.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, [&](PetscInt a, PetscInt b) {
+    PetscInt sign = 0;
+    petsc::check(eps->sc->comparison(lambda[std::size_t(a)], 0.0, lambda[std::size_t(b)], 0.0,
+                                     &sign, eps->sc->comparisonctx));
+    return sign < 0;
+  });
+  return order;
+}
+
+}  // namespace
+
+Eigenvalue eigenvalue(EPS eps, double theta)
+{
+  PetscScalar lambda = theta, zero = 0.0, shift = 0.0;
+  PetscBool is_inverse = PETSC_FALSE, is_shift = PETSC_FALSE;
+  petsc::check(STBackTransform(eps->st, 1, &lambda, &zero));
+  petsc::check(STGetShift(eps->st, &shift));
+  petsc::check(
+      PetscObjectTypeCompareAny((PetscObject)eps->st, &is_inverse, STSINVERT, STCAYLEY, ""));
+  petsc::check(PetscObjectTypeCompare((PetscObject)eps->st, STSHIFT, &is_shift));
+  if (inverts(eps)) return {.lambda = lambda, .distance = std::abs(1.0 / theta)};
+  if (is_inverse) return {.lambda = lambda, .distance = std::abs(lambda - shift)};
+  return {.lambda = lambda, .distance = std::abs(is_shift ? theta : lambda)};
+}
+
+std::vector<PairErrors> pair_errors(EPS eps, Mat X, std::span<const Eigenvalue> values)
+{
+  Pencil pencil(eps);
+  std::vector<PairErrors> errors;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    Vec x = nullptr;
+    petsc::check(MatDenseGetColumnVecRead(X, static_cast<PetscInt>(i), &x));
+    errors.push_back(pencil.errors(x, values[i]));
+    petsc::check(MatDenseRestoreColumnVecRead(X, static_cast<PetscInt>(i), &x));
+  }
+  return errors;
+}
+
+Pairs refined(EPS eps, Mat X, const linear::BlockOperator& op)
+{
+  constexpr double independent = 1e-12;
+  const auto [A, B] = problem_matrices(eps);
+  const MPI_Comm comm = petsc::communicator(X);
+  petsc::Matrix Y;
+  petsc::check(MatDuplicate(X, MAT_COPY_VALUES, Y.put()));
+  op(X, times(B, X), Y);
+  const Eigen::MatrixXd G = linear::inner_product(Y, times(B, Y));
+  std::vector<double> sizes;
+  for (Eigen::Index j = 0; j < G.cols(); ++j) sizes.push_back(std::sqrt(std::max(G(j, j), 0.0)));
+  const linear::Orthonormalisation o = linear::orthonormalisation(G, sizes, independent, comm);
+  const petsc::Matrix Q = combined(Y, o.to_Q);
+  const linear::SymmetricEigen ritz =
+      linear::symmetric_eigen(linear::inner_product(Q, times(A, Q)), comm);
+  std::vector<double> lambda = ritz.values;
+  for (double& value : lambda) value += shift_in_place(eps);
+  const std::vector<PetscInt> order = wanted_order(eps, lambda);
+  Pairs pairs{.lambda = {}, .X = combined(Q, Eigen::MatrixXd(ritz.vectors(every, order)))};
+  for (const PetscInt i : order) pairs.lambda.push_back(lambda[std::size_t(i)]);
+  return pairs;
+}
+
+void start(EPS eps, linear::BlockIteration& iteration, const linear::BlockOperator& op)
+{
+  const PetscInt n = std::min(eps->nini, iteration.block_size());
+  if (n <= 0) return iteration.start(op);
+  const petsc::Matrix guesses = iteration.new_block(n);
+  petsc::check(MatZeroEntries(guesses));
+  for (PetscInt i = 0; i < eps->nini; ++i) {
+    Vec v = nullptr, guess = nullptr;
+    petsc::check(BVGetColumn(eps->V, i, &v));
+    petsc::check(MatDenseGetColumnVec(guesses, i % n, &guess));
+    petsc::check(VecAXPY(guess, 1.0, v));
+    petsc::check(MatDenseRestoreColumnVec(guesses, i % n, &guess));
+    petsc::check(BVRestoreColumn(eps->V, i, &v));
+  }
+  iteration.start(op, guesses, eps->nini);
+}
+
+void begin_anew(EPS eps, linear::BlockIteration& iteration, PetscInt n_kept,
+                const linear::BlockOperator& op)
+{
+  const bool is_second = !iteration.sequence().known.empty();
+  const PetscInt b = iteration.block_size();
+  const PetscInt widest = std::max(b, eps->nev / 4);
+  const PetscInt width = std::min({widest, (is_second ? 2 : 1) * b, eps->n - n_kept});
+  petsc::check(PetscInfo(eps,
+                         "an eigenvalue may have more copies than the %" PetscInt_FMT
+                         " found: %" PetscInt_FMT " new random vectors\n",
+                         iteration.sequence().n_sources, width));
+  iteration.reserve(std::min(n_kept + 8 * width, eps->n) + width);
+  iteration.begin_anew(n_kept, width, op);
+}
+
+}  // namespace chladni::plugin

@@ -5,6 +5,7 @@
 #include "linear/lanczos/block_iteration.hpp"
 
 /// The operators that block Lanczos needs from an EPS, after EPSSetUp.
+
 namespace chladni::plugin {
 
 /// The matrix B of the inner product; the identity for a standard problem.
@@ -42,5 +43,14 @@ petsc::Matrix deflation_space(EPS eps);
 /// taken out of what it returns.
 /// @throws chladni::Error when A - sigma B has no factor.
 linear::BlockOperator operator_of(EPS eps, Mat C);
+
+/// Sets the order of eigenvalues that the user asked for. SLEPc's function for it is not visible to
+/// other libraries.
+PetscErrorCode set_up_sort(EPS eps);
+
+/// True if eigenvalue `a` comes before `b` in the order that the user wants. Both are eigenvalues
+/// of the transformed problem and are transformed back first.
+/// @throws chladni::petsc::Failure
+bool comes_before(EPS eps, PetscScalar a, PetscScalar b);
 
 }  // namespace chladni::plugin

@@ -17,14 +17,12 @@
 #include <string_view>
 #include <utility>
 
-#include "linear/cholesky/cholesky_types.hpp"
-#include "linear/cholesky/inner_solver.hpp"
-#include "linear/kernels/diagonal.hpp"
-#include "linear/kernels/shifted.hpp"
+#include "linear/cholesky/factorization.hpp"
+#include "linear/cholesky/petsc_factor.hpp"
+#include "linear/kernels/sparse_matrices.hpp"
 #include "linear/lanczos/block_iteration.hpp"
+#include "plugin/eps_block_lanczos.hpp"
 #include "plugin/eps_operator.hpp"
-#include "plugin/eps_residuals.hpp"
-#include "plugin/eps_sequences.hpp"
 
 namespace chladni::plugin {
 

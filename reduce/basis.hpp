@@ -46,4 +46,11 @@ Basis make_basis(const FactoredBody& body, const ReductionOptions& options, cons
 std::vector<double> lowest_modes(const FactoredBody& body, const ReductionOptions& options,
                                  const Support& support);
 
+/// The method that is asked for. For `automatic`, the one of Craig-Bampton and mixed interface
+/// whose eigen-solve is predicted to need fewer operations, with the numbers that decided.
+/// @note   Collective.
+/// @throws chladni::Error when `automatic` has no tolerance.
+MethodChoice method_choice(const FactoredBody& body, const ReductionOptions& options,
+                           const Support& support);
+
 }  // namespace chladni::reduce

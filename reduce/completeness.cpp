@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "common/error.hpp"
-#include "linear/kernels/symmetric_eigen.hpp"
+#include "linear/kernels/small_matrices.hpp"
 
 namespace chladni::reduce {
 

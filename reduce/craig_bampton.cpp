@@ -1,8 +1,13 @@
 #include "reduce/craig_bampton.hpp"
 
+#include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
-#include "linear/kernels/parted_form.hpp"
+#include "common/petsc.hpp"
+#include "linear/kernels/forms.hpp"
+#include "linear/kernels/small_matrices.hpp"
 
 namespace chladni::reduce {
 
@@ -62,6 +67,138 @@ ReducedModel project(const CraigBamptonBasis& Q_CB, const Blocks& K, const Block
   const Eigen::Index n_m = with_Psi.cols(), n_q = with_Psi.rows() - n_m;
   const MatrixXd P = linear::inner_product_sparse(Phi, M.sm) + with_Psi.bottomRows(n_q);
   return join(K_G, guyan_mass(Psi, M, with_Psi.topRows(n_m)), P, Q_CB.modes->omega);
+}
+
+BasisColumns::BasisColumns(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of)
+    : Psi_(Q_CB.Psi),
+      n_m_(Psi_.n_cols()),
+      first_master_(petsc::indices_before(rows_of.masters)),
+      masters_(petsc::own_indices(rows_of.masters)),
+      slaves_(petsc::own_indices(rows_of.slaves))
+{
+  if (Q_CB.modes) Phi_.emplace(Q_CB.modes->Phi);
+  const PetscInt first = first_master_ + petsc::indices_before(rows_of.slaves);
+  for (std::vector<PetscInt>* dofs : {&masters_, &slaves_})
+    for (PetscInt& dof : *dofs) dof -= first;
+}
+
+void BasisColumns::write(PetscInt column, std::span<double> rows) const
+{
+  const bool is_master = column < n_m_;
+  const PetscInt master = column - first_master_;
+  for (const PetscInt row : masters_) rows[std::size_t(row)] = 0.0;
+  if (is_master && master >= 0 && master < std::ssize(masters_))
+    rows[std::size_t(masters_[std::size_t(master)])] = 1.0;
+  const linear::LocalRows& X = is_master ? Psi_ : *Phi_;
+  const double* values =
+      X.values() + std::size_t(is_master ? column : column - n_m_) * X.leading_dimension();
+  for (std::size_t i = 0; i < slaves_.size(); ++i) rows[std::size_t(slaves_[i])] = values[i];
+}
+
+OwnBasisRows::Places::Places(IS set)
+{
+  const std::vector<PetscInt> dofs = petsc::own_indices(set);
+  if (dofs.empty()) return;
+  const auto [first, last] = std::ranges::minmax(dofs);
+  first_ = first;
+  place_.resize(std::size_t(last - first) + 1, none);
+  for (std::size_t i = 0; i < dofs.size(); ++i)
+    place_[std::size_t(dofs[i] - first)] = static_cast<PetscInt>(i);
+}
+
+std::optional<PetscInt> OwnBasisRows::Places::operator()(PetscInt dof) const
+{
+  if (dof < first_ || dof - first_ >= std::ssize(place_)) return std::nullopt;
+  const PetscInt place = place_[std::size_t(dof - first_)];
+  return place == none ? std::nullopt : std::optional(place);
+}
+
+OwnBasisRows::OwnBasisRows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of)
+    : Psi_(Q_CB.Psi),
+      first_master_(petsc::indices_before(rows_of.masters)),
+      masters_(rows_of.masters),
+      slaves_(rows_of.slaves)
+{
+  if (Q_CB.modes) Phi_.emplace(Q_CB.modes->Phi);
+}
+
+MatrixXd OwnBasisRows::rows(const std::vector<PetscInt>& dofs) const
+{
+  MatrixXd rows = MatrixXd::Zero(std::ssize(dofs), n_columns());
+  std::vector<std::pair<PetscInt, PetscInt>> own;  // row here and row among this rank's slaves
+  for (PetscInt i = 0; i < rows.rows(); ++i) {
+    if (const auto m = master(dofs[i])) rows(i, first_master_ + *m) = 1.0;
+    if (const auto s = slave(dofs[i])) own.emplace_back(i, *s);
+  }
+  const PetscInt n_m = Psi_.n_cols();
+  for (PetscInt j = 0; j < n_m; ++j)
+    for (const auto& [i, s] : own) rows(i, j) = Psi_(s, j);
+  for (PetscInt j = n_m; j < n_columns(); ++j)
+    for (const auto& [i, s] : own) rows(i, j) = (*Phi_)(s, j - n_m);
+  return rows;
+}
+
+MatrixXd basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of,
+                    const std::vector<PetscInt>& dofs)
+{
+  MatrixXd rows = OwnBasisRows(Q_CB, rows_of).rows(dofs);
+  linear::sum_over_ranks(linear::values_of(rows), petsc::communicator(Q_CB.Psi));
+  return rows;
+}
+
+namespace {
+
+void add_block(MatrixXd& A, Eigen::Index first_row, Eigen::Index first_column,
+               const MatrixXd& block)
+{
+  A.block(first_row, first_column, block.rows(), block.cols()) += block;
+}
+
+/// A dense basis of the slaves and its first coordinate.
+struct Columns {
+  Mat X;
+  PetscInt first;
+};
+
+}  // namespace
+
+/// With Q_CB = [I 0; X], X = [Psi Phi]: A_r = A_mm + A_ms X + X^T A_sm + X^T A_ss X.
+MatrixXd project_form(const CraigBamptonBasis& Q_CB, const Blocks& A, linear::FormSymmetry symmetry)
+{
+  const MatrixXd A_mm = linear::replicate(A.mm);
+  const auto n_m = static_cast<PetscInt>(A_mm.rows());
+  std::vector<Columns> X{{Q_CB.Psi, 0}};
+  if (Q_CB.modes) X.push_back({Q_CB.modes->Phi, n_m});
+  MatrixXd A_r = MatrixXd::Zero(n_m + Q_CB.n_modes(), n_m + Q_CB.n_modes());
+  add_block(A_r, 0, 0, A_mm);
+  petsc::Matrix A_ms_T;  // that its product with X is one with sparse columns
+  petsc::check(MatTranspose(A.ms, MAT_INITIAL_MATRIX, A_ms_T.put()));
+  for (const Columns& part : X) {
+    add_block(A_r, part.first, 0, linear::inner_product_sparse(part.X, A.sm));
+    add_block(A_r, 0, part.first, linear::inner_product_sparse(part.X, A_ms_T).transpose());
+  }
+  std::vector<Mat> columns;
+  for (const Columns& part : X) columns.push_back(part.X);
+  return A_r + linear::parted_form(columns, A.ss, symmetry);
+}
+
+std::vector<MatrixXd> project_forms(const CraigBamptonBasis& Q_CB, const DofPartition& dofs,
+                                    std::span<const linear::SparseForm> forms)
+{
+  const BasisColumns columns(Q_CB, dofs);
+  const auto write = [&](PetscInt j, std::span<double> rows) { columns.write(j, rows); };
+  return linear::component_forms({.n_columns = columns.size(), .write = write}, forms);
+}
+
+MatrixXd project_vectors(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, Mat V)
+{
+  petsc::Matrix V_m, V_s;
+  petsc::check(MatCreateSubMatrix(V, dofs.masters, nullptr, MAT_INITIAL_MATRIX, V_m.put()));
+  petsc::check(MatCreateSubMatrix(V, dofs.slaves, nullptr, MAT_INITIAL_MATRIX, V_s.put()));
+  const MatrixXd V_mm = linear::replicate(V_m);
+  const MatrixXd Psi_V = linear::inner_product(Q_CB.Psi, V_s);
+  if (!Q_CB.modes) return V_mm + Psi_V;
+  return linear::stacked(V_mm + Psi_V, linear::inner_product(Q_CB.modes->Phi, V_s));
 }
 
 }  // namespace chladni::reduce

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "common/eigen_every.hpp"
-#include "linear/cholesky/inverse_form.hpp"
-#include "linear/kernels/diagonal.hpp"
+#include "linear/cholesky/part_solver.hpp"
 #include "linear/kernels/small_matrices.hpp"
+#include "linear/kernels/sparse_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "linear/progress.hpp"
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "common/index_sets.hpp"
-#include "linear/cholesky/cholesky_types.hpp"
+#include "common/petsc.hpp"
 #include "linear/cholesky/part_solver.hpp"
+#include "linear/cholesky/petsc_factor.hpp"
 #include "linear/kernels/decoupled_rows.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/machine_memory.hpp"

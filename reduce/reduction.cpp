@@ -4,15 +4,14 @@
 #include <iterator>
 #include <numbers>
 
-#include "linear/cholesky/condition_estimate.hpp"
 #include "linear/cholesky/elimination_order.hpp"
+#include "linear/cholesky/factorization.hpp"
 #include "linear/cholesky/part_solver.hpp"
 #include "linear/machine_memory.hpp"
 #include "reduce/basis.hpp"
 #include "reduce/certify.hpp"
-#include "reduce/held_masters.hpp"
 #include "reduce/memory_forecast.hpp"
-#include "reduce/method_choice.hpp"
+#include "reduce/support.hpp"
 
 namespace chladni::reduce {
 

@@ -8,7 +8,7 @@
 #include "linear/solver_options.hpp"
 #include "reduce/completeness.hpp"
 #include "reduce/craig_bampton.hpp"
-#include "reduce/full_responses.hpp"
+#include "reduce/harmonic_response.hpp"
 #include "reduce/phases.hpp"
 #include "reduce/reduce_options.hpp"
 #include "reduce/response_errors.hpp"

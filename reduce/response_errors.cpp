@@ -10,11 +10,11 @@
 #include "common/all_ranks.hpp"
 #include "common/eigen_every.hpp"
 #include "common/told_apart.hpp"
-#include "linear/dense/decoupled_coordinates.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/eigenmodes.hpp"
 #include "linear/kernels/small_matrices.hpp"
-#include "reduce/held_masters.hpp"
 #include "reduce/residual_forms.hpp"
+#include "reduce/support.hpp"
 #include "reduce/unbalanced_forces.hpp"
 
 namespace chladni::reduce {

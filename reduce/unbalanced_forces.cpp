@@ -19,11 +19,10 @@
 #include <utility>
 
 #include "common/eigen_every.hpp"
-#include "linear/dense/decoupled_coordinates.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/eigenmodes.hpp"
 #include "linear/kernels/small_matrices.hpp"
-#include "linear/kernels/symmetric_eigen.hpp"
-#include "reduce/held_masters.hpp"
+#include "reduce/support.hpp"
 
 namespace chladni::reduce {
 

@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <numbers>
 
-#include "mbs_export/responses/measured_beside.hpp"
-#include "report/quantities.hpp"
+#include "mbs_export/responses/frequency_responses.hpp"
+#include "report/json.hpp"
+#include "report/text_table.hpp"
 
 namespace chladni::report {
-namespace {
 
-using mbs_export::FrequencyResponses;
-using mbs_export::ResponsePoint;
+using Eigen::Index;
+using mbs_export::FrequencyResponses, mbs_export::MeasuredModes, mbs_export::ModalAssurance,
+    mbs_export::ResponsePoint;
+
+namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr std::size_t most = 40;  // rows of a table
@@ -174,6 +177,60 @@ std::vector<Json::Member> responses_json(const FrequencyResponses& responses)
     members.push_back({"measured", measured_json(responses)});
   }
   return members;
+}
+
+TextTable list_assurance(const MeasuredModes& measured, const ModalAssurance& found)
+{
+  TextTable table{.header = {"measured", "Hz", "mode of the body", "Hz", "difference", "MAC",
+                             "MAC of the next"},
+                  .rows = {}};
+  for (Index k = 0; k < found.mac.rows(); ++k) {
+    Index best = 0;
+    const double mac = found.mac.row(k).maxCoeff(&best);
+    Eigen::RowVectorXd others = found.mac.row(k);
+    others[best] = 0.0;
+    const double f = found.measured_Hz[k], f_body = found.body_Hz[best];
+    const std::string& name = measured.names[static_cast<std::size_t>(k)];
+    const bool is_named = !name.empty() && name != "NONE";
+    table.rows.push_back({printable(fmt::format("{}{}", k + 1, is_named ? " " + name : "")),
+                          fmt::format("{:.4f}", f),
+                          fmt::format("{}", found.modes[static_cast<std::size_t>(best)]),
+                          fmt::format("{:.4f}", f_body),
+                          f > 0.0 ? fmt::format("{:+.2f} %", 100.0 * (f_body / f - 1.0)) : "",
+                          fmt::format("{:.4f}", mac), fmt::format("{:.4f}", others.maxCoeff())});
+  }
+  return table;
+}
+
+TextTable describe(const ModalAssurance& found)
+{
+  TextTable table = quantities();
+  add_count(table, "measured nodes", std::ssize(found.nodes));
+  add_count(table, "measured components", found.n_components);
+  const auto farthest =
+      std::ranges::max_element(found.nodes, {}, &mbs_export::MatchedNode::distance);
+  add(table, fmt::format("largest distance to a node of the body (node {})", farthest->number),
+      farthest->distance, "m");
+  return table;
+}
+
+std::vector<Json::Member> assurance_json(const ModalAssurance& found)
+{
+  std::vector<Json> rows, modes, nodes;
+  for (Index k = 0; k < found.mac.rows(); ++k)
+    rows.push_back(numbers_json(found.mac.row(k).transpose()));
+  for (const int mode : found.modes) modes.emplace_back(mode);
+  for (const mbs_export::MatchedNode& node : found.nodes) {
+    nodes.push_back(Json::object({{"node", node.number},
+                                  {"position", numbers_json(node.position)},
+                                  {"distance_m", node.distance}}));
+  }
+  return {{"measured_Hz", numbers_json(found.measured_Hz)},
+          {"body_modes", Json::array(modes)},
+          {"body_Hz", numbers_json(found.body_Hz)},
+          {"mac", Json::array(rows)},
+          {"n_components", found.n_components},
+          {"nodes", Json::array(nodes)}};
 }
 
 }  // namespace chladni::report

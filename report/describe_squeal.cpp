@@ -1,26 +1,33 @@
+#include "report/describe_squeal.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstddef>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
-#include "report/describe.hpp"
-#include "report/describe_cycles.hpp"
-#include "report/describe_gradients.hpp"
-#include "report/describe_rotation.hpp"
-#include "report/describe_stability.hpp"
-#include "report/quantities.hpp"
+#include "report/describe_body.hpp"
+#include "report/json.hpp"
+#include "report/text_table.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
-#include "squeal/results/analysis_file.hpp"
-#include "squeal/results/transient_file.hpp"
+#include "squeal/results/squeal_results.hpp"
+#include "squeal/results/transient_results.hpp"
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/stability/stability_search.hpp"
-#include "squeal/transient/growth_rate.hpp"
+#include "squeal/transient/transient.hpp"
 
 namespace chladni::report {
+
+using squeal::VariantState;
+
 namespace {
 
 /// Growth that rounding can make of a neutral motion, relative to the largest frequency of a map.
@@ -261,6 +268,291 @@ TextTable describe(const squeal::SquealResults& results)
   if (results.limit_cycle_branch) add_branch(table, *results.limit_cycle_branch);
   if (results.spectrum) add_peaks(table, results);
   return table;
+}
+
+namespace {
+
+/// Of the strongest lines of a spectrum, in a table.
+constexpr int n_lines_told = 5;
+
+/// A number of a limit cycle, and its error with its parts.
+struct ToldNumber {
+  const char* name;
+  const char* unit;
+  double value;
+  squeal::ErrorBudget budget;
+};
+
+void add_with_error(TextTable& table, const ToldNumber& told)
+{
+  const std::string name = fmt::format("direct limit cycle: {}", told.name);
+  add(table, name, told.value, told.unit);
+  if (told.budget.is_empty()) return;
+  table.rows.push_back({fmt::format("its error ({})", parts_of(told.budget)),
+                        fmt::format("+- {:.2g}", told.budget.sum()), told.unit});
+}
+
+squeal::ErrorBudget in_mm(squeal::ErrorBudget budget)
+{
+  for (auto* part :
+       {&budget.mesh, &budget.reduction, &budget.body, &budget.left_out, &budget.integration})
+    if (*part) **part *= 1e3;
+  return budget;
+}
+
+}  // namespace
+
+double rpm(double rad_s)
+{
+  return rad_s * 30.0 / std::numbers::pi;
+}
+
+std::string spoken(double rad_s)
+{
+  return fmt::format("{:.6g} rad/s ({:.4g} rpm)", rad_s, rpm(rad_s));
+}
+
+std::string doubt_of_stability(squeal::CycleStability stability)
+{
+  switch (stability) {
+    case squeal::CycleStability::stable:
+      return "";
+    case squeal::CycleStability::unstable:
+      return "not stable";
+    default:
+      return "stable or not: undecided within its error";
+  }
+}
+
+void add_limit_cycle(TextTable& table, const squeal::LimitCycle& cycle)
+{
+  // What still grows or decays is the end of a transient and no limit cycle.
+  const std::string name = cycle.settled ? "limit cycle: " : "end of the transient, not settled: ";
+  add(table, name + "speed", cycle.speed, "rad/s");
+  add(table, name + "frequency", cycle.frequency_Hz, "Hz");
+  add(table, name + "pad velocity", cycle.pad_velocity, "m/s");
+  add(table, name + "pad displacement", 1e3 * cycle.pad_displacement, "mm");
+  add(table, name + "least normal force", cycle.N_min, "N");
+  add(table, name + "largest normal force", cycle.N_max, "N");
+  if (!cycle.settled) add(table, name + "drift", 100.0 * cycle.drift, "%");
+  if (cycle.amplitude.size() > 0 || cycle.mode_numbers.empty()) return;
+  table.rows.push_back({"end of the transient",
+                        "the disc is not axisymmetric: it ends in no closed orbit, and "
+                        "\"motion-statistics\" tells how it squeals",
+                        ""});
+}
+
+void add_statistics(TextTable& table, const squeal::MotionStatistics& statistics)
+{
+  const std::string name = fmt::format("last {} rotations{}: ", statistics.n_rotations,
+                                       statistics.settled ? "" : ", not settled");
+  add(table, name + "speed", statistics.speed, "rad/s");
+  add(table, name + "effective pad velocity", statistics.rms_velocity, "m/s");
+  add(table, name + "largest pad velocity", statistics.peak_velocity, "m/s");
+  add(table, name + "largest pad displacement", 1e3 * statistics.peak_displacement, "mm");
+  add(table, name + "least normal force", statistics.N_min, "N");
+  add(table, name + "largest normal force", statistics.N_max, "N");
+  add(table, name + "modulation by the rotation", 100.0 * statistics.modulation, "%");
+  if (!statistics.settled) add(table, name + "drift", 100.0 * statistics.drift, "%");
+  const auto n_told = std::min<std::size_t>(statistics.lines.size(), n_lines_told);
+  for (const auto& line : std::span(statistics.lines).first(n_told))
+    add(table, fmt::format("{}line at {:.6g} Hz", name, line.frequency_Hz), line.amplitude, "m/s");
+}
+
+void add_direct_limit_cycle(TextTable& table, const squeal::DirectLimitCycle& cycle)
+{
+  add(table, "direct limit cycle: speed", cycle.speed, "rad/s");
+  add_with_error(table, {"frequency", "Hz", cycle.frequency_Hz, cycle.errors.frequency_Hz});
+  add_with_error(table, {"pad velocity", "m/s", cycle.pad_velocity, cycle.errors.pad_velocity});
+  add_with_error(table, {"pad displacement", "mm", 1e3 * cycle.pad_displacement,
+                         in_mm(cycle.errors.pad_displacement)});
+  add(table, "direct limit cycle: least normal force", cycle.N_min, "N");
+  add(table, "direct limit cycle: largest normal force", cycle.N_max, "N");
+  add(table, "direct limit cycle: largest multiplier", std::abs(cycle.multipliers[1]), "");
+  if (cycle.multiplier_error) {
+    table.rows.push_back(
+        {"its error (integration)", fmt::format("+- {:.1g}", *cycle.multiplier_error), ""});
+  }
+  const std::string doubt = doubt_of_stability(squeal::stability_of(cycle));
+  if (!doubt.empty()) table.rows.push_back({"direct limit cycle", doubt, ""});
+  add_count(table, "direct limit cycle: contact evaluations", cycle.n_contact_evaluations);
+  if (!cycle.way.empty()) table.rows.push_back({"direct limit cycle: found", cycle.way, ""});
+}
+
+void add_branch(TextTable& table, const squeal::LimitCycleBranch& branch)
+{
+  add_count(table, "limit cycles over speed", static_cast<Eigen::Index>(branch.points.size()));
+  if (branch.origin) {
+    add(table, "limit cycles begin at the Hopf point", branch.origin->speed, "rad/s");
+    const bool forward = branch.origin->first.speed > branch.origin->speed;
+    table.rows.push_back(
+        {"limit cycles begin towards", forward ? "higher speeds" : "lower speeds", ""});
+  }
+  if (!branch.note.empty()) table.rows.push_back({"limit cycles over speed", branch.note, ""});
+  if (branch.points.empty()) return;
+  for (const squeal::BranchPoint& end : {branch.points.front(), branch.points.back()})
+    add(table, "pad velocity at " + spoken(end.speed), end.pad_velocity, "m/s");
+  for (const squeal::BranchPoint& fold : branch.folds)
+    add(table, "fold of the limit cycle at", fold.speed, "rad/s");
+  if (branch.lost_below) add(table, "limit cycle lost below", *branch.lost_below, "rad/s");
+  if (branch.lost_above) add(table, "limit cycle lost above", *branch.lost_above, "rad/s");
+}
+
+namespace {
+
+constexpr std::size_t rows_told = 20;
+
+/// "+0.012" of the usual change
+std::string effect(const squeal::GradientRow& row, double derivative)
+{
+  const double change = squeal::usual_change(row).value * derivative;
+  return change == 0.0 ? "0" : fmt::format("{:+.3g}", change);
+}
+
+}  // namespace
+
+TextTable gradients_table(const squeal::Gradients& gradients)
+{
+  TextTable table{.header = {"number raised by 1 %", "value", "unit"}, .rows = {}};
+  if (gradients.critical_speed) table.header.emplace_back("critical speed, rad/s");
+  for (const squeal::GradientMotion& motion : gradients.motions)
+    table.header.push_back(fmt::format("growth at {:.5g} Hz, 1/s", motion.frequency_Hz));
+  for (const squeal::GradientRow& row : gradients.rows) {
+    const std::string change = squeal::usual_change(row).name;
+    std::vector<std::string> cells{
+        change == "1 %" ? row.key : fmt::format("{} (by +{})", row.key, change),
+        fmt::format("{:.6g}", row.value), row.unit};
+    if (gradients.critical_speed) cells.push_back(effect(row, row.critical_speed.value_or(0.0)));
+    for (const double growth : row.growth) cells.push_back(effect(row, growth));
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+void add_gradients(TextTable& table, const squeal::Gradients& gradients)
+{
+  const bool of_speed = gradients.critical_speed.has_value();
+  if (of_speed) add(table, "critical speed (gradients)", *gradients.critical_speed, "rad/s");
+  if (gradients.speed && !gradients.motions.empty()) {
+    add(table, fmt::format("largest growth at {:.6g} rad/s (gradients)", *gradients.speed),
+        gradients.motions.front().growth, "1/s");
+  }
+  for (std::size_t i = 0; i < std::min(rows_told, gradients.rows.size()); ++i) {
+    const squeal::GradientRow& row = gradients.rows[i];
+    const double derivative = of_speed                ? row.critical_speed.value_or(0.0)
+                              : row.growth.size() > 0 ? row.growth[0]
+                                                      : 0.0;
+    add(table,
+        fmt::format("+{} of {} moves the {} by", squeal::usual_change(row).name, row.key,
+                    of_speed ? "critical speed" : "largest growth"),
+        squeal::usual_change(row).value * derivative, of_speed ? "rad/s" : "1/s");
+  }
+}
+
+Json gradients_json(const squeal::Gradients& gradients)
+{
+  std::vector<Json> motions, rows;
+  for (const squeal::GradientMotion& motion : gradients.motions) {
+    motions.push_back(
+        Json::object({{"growth_1_s", motion.growth}, {"frequency_Hz", motion.frequency_Hz}}));
+  }
+  for (const squeal::GradientRow& row : gradients.rows) {
+    std::vector<Json> growth(row.growth.begin(), row.growth.end());
+    rows.push_back(Json::object({{"key", row.key},
+                                 {"unit", row.unit},
+                                 {"value", row.value},
+                                 {"critical_speed_by_value", optional_json(row.critical_speed)},
+                                 {"growth_by_value", Json::array(growth)}}));
+  }
+  return Json::object({{"critical_speed_rad_s", optional_json(gradients.critical_speed)},
+                       {"critical_frequency_Hz", optional_json(gradients.critical_frequency_Hz)},
+                       {"speed_rad_s", optional_json(gradients.speed)},
+                       {"motions", Json::array(motions)},
+                       {"rows", Json::array(rows)}});
+}
+
+namespace {
+
+/// The least and the largest of the numbers of a column that are known.
+struct Range {
+  std::size_t n = 0;
+  double least = std::numeric_limits<double>::infinity();
+  double largest = -std::numeric_limits<double>::infinity();
+
+  void add(double x)
+  {
+    ++n;
+    least = std::min(least, x);
+    largest = std::max(largest, x);
+  }
+};
+
+std::vector<std::string> row_of(const std::string& name, const Range& range)
+{
+  if (range.n == 0) return {name, "", "", "0"};
+  return {name, fmt::format("{:.6g}", range.least), fmt::format("{:.6g}", range.largest),
+          fmt::format("{}", range.n)};
+}
+
+Range range_of(const squeal::SweepTable& sweep, Eigen::Index column)
+{
+  Range range;
+  for (Eigen::Index i = 0; i < sweep.results.rows(); ++i)
+    if (sweep.known(i, column)) range.add(sweep.results(i, column));
+  return range;
+}
+
+void add_failures(TextTable& table, const squeal::SweepTable& sweep)
+{
+  constexpr std::size_t most = 20;
+  std::size_t told = 0;
+  for (std::size_t i = 0; i < sweep.n_variants(); ++i) {
+    if (sweep.failures[i].empty() || ++told > most) continue;
+    table.rows.push_back({fmt::format("variant {}: {}: {}", i + 1, name_of_variant(sweep, i),
+                                      printable(sweep.failures[i])),
+                          "", "", ""});
+  }
+  if (told > most)
+    table.rows.push_back({fmt::format("and {} more that failed", told - most), "", "", ""});
+}
+
+}  // namespace
+
+TextTable describe(const squeal::SweepTable& sweep)
+{
+  TextTable table{.header = {"", "least", "largest", "variants"}, .rows = {}};
+  for (std::size_t k = 0; k < sweep.keys.size(); ++k) {
+    Range range;
+    for (const double value : sweep.values.col(static_cast<Eigen::Index>(k))) range.add(value);
+    table.rows.push_back(row_of(printable(sweep.keys[k]), range));
+  }
+  for (std::size_t j = 0; j < sweep.columns.size(); ++j) {
+    table.rows.push_back(
+        row_of(printable(sweep.columns[j].name), range_of(sweep, static_cast<Eigen::Index>(j))));
+  }
+  const auto count = [&](const char* name, VariantState state) {
+    if (const std::size_t n = sweep.count(state))
+      table.rows.push_back({name, "", "", fmt::format("{}", n)});
+  };
+  count("done", VariantState::done);
+  count("failed", VariantState::failed);
+  count("still to do: squeal sweep --resume", VariantState::to_do);
+  add_failures(table, sweep);
+  return table;
+}
+
+std::vector<Json::Member> sweep_json(const squeal::SweepTable& sweep)
+{
+  std::vector<Json> failures;
+  for (std::size_t i = 0; i < sweep.n_variants(); ++i) {
+    if (sweep.failures[i].empty()) continue;
+    failures.push_back(Json::object(
+        {{"variant", i + 1}, {"of", name_of_variant(sweep, i)}, {"reason", sweep.failures[i]}}));
+  }
+  return {{"variants", sweep.n_variants()},
+          {"done", sweep.count(VariantState::done)},
+          {"failed", sweep.count(VariantState::failed)},
+          {"failures", Json::array(failures)}};
 }
 
 }  // namespace chladni::report

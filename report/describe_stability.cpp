@@ -1,22 +1,23 @@
-#include "report/describe_stability.hpp"
+#include "report/describe_squeal.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include "report/numbers_json.hpp"
 
 #include <algorithm>
 #include <numbers>
 #include <numeric>
 #include <vector>
 
-#include "report/quantities.hpp"
-#include "squeal/results/analysis_file.hpp"
+#include "report/json.hpp"
+#include "report/text_table.hpp"
+#include "squeal/results/squeal_results.hpp"
 
 namespace chladni::report {
-namespace {
 
-using squeal::StabilityBranch;
-using squeal::StabilityTable;
+using Eigen::Index;
+using squeal::StabilityBranch, squeal::StabilityTable;
+
+namespace {
 
 /// Families of modes and pads that are told of, and the least share that is.
 constexpr std::size_t most_shares = 3;
@@ -171,6 +172,49 @@ Json stability_table_json(const StabilityTable& stability)
                        {"summary", summary(stability)},
                        {"families", Json::array(families)},
                        {"branches", Json::array(branches)}});
+}
+
+namespace {
+
+/// Those that grow at the speed of the largest growth, the worst first; that one at least.
+void add_worst(TextTable& table, const squeal::RotationStability& stability)
+{
+  Index at = 0;
+  stability.growth.maxCoeff(&at);
+  for (Index j = 0; j < stability.exponents.cols(); ++j) {
+    const std::complex<double> lambda = stability.exponents(at, j);
+    if (j > 0 && !(lambda.real() > 0.0)) return;
+    add(table,
+        fmt::format("growth at {:.6g} rad/s of {:.2f} Hz (rotation)", stability.speeds[at],
+                    lambda.imag() / (2.0 * std::numbers::pi)),
+        lambda.real(), "1/s");
+  }
+}
+
+void add_frozen(TextTable& table, const squeal::RotationStability& stability)
+{
+  add(table, "the same from a disc that stands at its worst angle",
+      stability.frozen_growth.maxCoeff(), "1/s");
+  const Index misled =
+      ((stability.frozen_growth.array() > 0.0) != (stability.growth.array() > 0.0)).count();
+  if (misled > 0)
+    add_count(table, "speeds at which the standing disc misleads about stability", misled);
+}
+
+}  // namespace
+
+void add_rotation_method(TextTable& table, const squeal::RotationStability& stability)
+{
+  if (stability.method == "hill") {
+    table.rows.push_back(
+        {"method (rotation)",
+         fmt::format("Hill, K = {} harmonics of the rotation", stability.harmonics), ""});
+    add(table, "estimated error of its growth rates", stability.error, "1/s");
+  } else if (!stability.method.empty()) {
+    table.rows.push_back({"method (rotation)", "Floquet, integrated over one rotation", ""});
+  }
+  if (stability.exponents.size() > 0) add_worst(table, stability);
+  if (stability.frozen_growth.size() > 0) add_frozen(table, stability);
 }
 
 }  // namespace chladni::report

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 namespace chladni::report {
+
 namespace {
 
 std::string escaped(char c)
@@ -56,6 +59,23 @@ Json Json::object(const std::vector<Member>& members)
     json.text_ += (json.text_.size() > 1 ? ", " : "") + in_quotes(name) + ": " + value.text_;
   json.text_ += "}";
   return json;
+}
+
+Json numbers_json(const Eigen::VectorXd& values)
+{
+  std::vector<Json> numbers;
+  for (const double value : values) numbers.emplace_back(value);
+  return Json::array(numbers);
+}
+
+Json optional_json(const std::optional<double>& x)
+{
+  return x ? Json(*x) : Json();
+}
+
+Json frequencies_json(const Eigen::VectorXd& omega)
+{
+  return numbers_json(omega / (2.0 * std::numbers::pi));
 }
 
 }  // namespace chladni::report

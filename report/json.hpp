@@ -1,6 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <concepts>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -31,5 +34,14 @@ class Json {
  private:
   std::string text_ = "null";
 };
+
+/// Numbers as a JSON array.
+Json numbers_json(const Eigen::VectorXd& values);
+
+/// The number, or null when there is none.
+Json optional_json(const std::optional<double>& x);
+
+/// Angular frequencies in rad/s as a JSON array of frequencies in Hz.
+Json frequencies_json(const Eigen::VectorXd& omega);
 
 }  // namespace chladni::report

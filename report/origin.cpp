@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "files/file_digest.hpp"
-#include "report/output.hpp"
-#include "scene/changes.hpp"
+#include "files/input_file.hpp"
+#include "report/text_table.hpp"
+#include "scene/scene_text.hpp"
 
 namespace chladni::report {
 

@@ -6,6 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "report/json.hpp"
+#include "report/text_table.hpp"
+#include "report/timing.hpp"
+
 namespace chladni::report {
 
 /// How often a phase is performed: once, or an unknown number of times, as in an adaptive loop.
@@ -74,5 +78,28 @@ class ProgressLine {
   Clock::time_point shown_;
   bool visible_ = false;
 };
+
+}  // namespace chladni::report
+
+/// Cost of a program for its summaries.
+
+namespace chladni::report {
+
+/// Time and memory of a whole program run.
+struct Cost {
+  std::vector<PhaseTime> phases;
+  double wall_s;    ///< wall time of the slowest rank since the process started, s
+  double cpu_s;     ///< CPU time of all ranks since the process started, s
+  double peak_MiB;  ///< peak memory of the rank that needed most
+};
+
+/// The given phases with the times and the peak memory of this process up to now.
+Cost cost_so_far(std::vector<PhaseTime> phases);
+
+/// The cost as a table for the terminal.
+TextTable cost_table(const Cost& cost);
+
+/// Members `phases` (name -> wall_s), `phases_cpu_s`, `wall_s`, `cpu_s`, `peak_MiB`.
+std::vector<Json::Member> cost_json(const Cost& cost);
 
 }  // namespace chladni::report

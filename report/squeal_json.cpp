@@ -1,17 +1,16 @@
-#include "report/squeal_json.hpp"
+#include "report/describe_squeal.hpp"
 
 #include <complex>
 #include <optional>
 #include <utility>
 
-#include "report/describe_gradients.hpp"
-#include "report/describe_stability.hpp"
-#include "report/numbers_json.hpp"
+#include "report/json.hpp"
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/stability/stability_search.hpp"
-#include "squeal/transient/growth_rate.hpp"
+#include "squeal/transient/transient.hpp"
 
 namespace chladni::report {
+
 namespace {
 
 Json eigenvalues_json(const squeal::EigenvalueMap& map)

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "scene/admissible.hpp"
-#include "scene/names.hpp"
+#include <toml++/toml.h>
 
 #include <initializer_list>
 #include <memory>
@@ -9,6 +8,8 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "scene/keys.hpp"
 
 namespace chladni::scene {
 
@@ -98,5 +99,14 @@ T Table::choice(std::string_view key, const std::vector<Choice<T>>& choices) con
   }
   refuse(key, "must be one of " + quoted_list(names));
 }
+
+/// Largest number of parts of a dotted key or of a table's name.
+inline constexpr int key_parts_max = 16;
+
+/// Parses a TOML text with limited nesting.
+/// @param file  name of the file in error messages
+/// @throws toml::parse_error when the text is not TOML; chladni::Error when a key has more than
+///         `key_parts_max` parts, because toml++ and the readers recurse once for each part.
+toml::table parse_values(std::string_view text, const std::string& file = "");
 
 }  // namespace chladni::scene

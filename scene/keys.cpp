@@ -1,10 +1,17 @@
 #include "scene/keys.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace chladni::scene {
+
 namespace {
 
 using Rows = std::span<const Key>;
@@ -132,6 +139,104 @@ that you choose, or each of several. What must hold between keys is said by the 
          table_text("Squeal: friction, pads and models without a body", brake_keys()) +
          table_text("Squeal: assemblies of several bodies", assembly_keys()) +
          table_text("Sound", sound_keys());
+}
+
+bool admits(const Admissible& admissible, double x)
+{
+  return std::isfinite(x) && x > admissible.above && x >= admissible.at_least &&
+         x < admissible.below && x <= admissible.at_most;
+}
+
+Admissible both(const Admissible& a, const Admissible& b)
+{
+  return {.above = std::max(a.above, b.above),
+          .at_least = std::max(a.at_least, b.at_least),
+          .below = std::min(a.below, b.below),
+          .at_most = std::min(a.at_most, b.at_most),
+          .unit = b.unit.empty() ? a.unit : b.unit,
+          .usual_from = std::max(a.usual_from, b.usual_from),
+          .usual_to = std::min(a.usual_to, b.usual_to),
+          .usually = b.usually.empty() ? a.usually : b.usually};
+}
+
+std::string requirement(const Admissible& admissible, std::string_view kind)
+{
+  std::vector<std::string> bounds;
+  const auto add_bound = [&](std::string_view relation, double bound) {
+    if (std::isfinite(bound)) bounds.push_back(fmt::format("{} {}", relation, bound));
+  };
+  // Of two bounds on one side the weaker one says nothing.
+  if (admissible.above >= admissible.at_least) add_bound(">", admissible.above);
+  if (admissible.at_least > admissible.above) add_bound(">=", admissible.at_least);
+  if (admissible.below <= admissible.at_most) add_bound("<", admissible.below);
+  if (admissible.at_most < admissible.below) add_bound("<=", admissible.at_most);
+
+  std::string text{kind};
+  if (!bounds.empty())
+    text += fmt::format("{}{}", text.empty() ? "" : " ", fmt::join(bounds, " and "));
+  if (text.empty()) text = "finite";
+  if (!admissible.unit.empty()) text += fmt::format(" ({})", admissible.unit);
+  return text;
+}
+
+namespace {
+
+/// Levenshtein: the fewest insertions, deletions and replacements that turn `a` into `b`.
+std::size_t edit_distance(std::string_view a, std::string_view b)
+{
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+bool contains(const std::vector<std::string>& names, std::string_view name)
+{
+  return std::ranges::find(names, name) != names.end();
+}
+
+std::string quoted_list(const std::vector<std::string>& names)
+{
+  std::string text;
+  for (const std::string& name : names)
+    text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
+  return text.empty() ? "(none)" : text;
+}
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& names)
+{
+  std::string nearest;
+  std::size_t least = name.size() < 4 ? 2 : 3;  // one more than the slips that are forgiven
+  for (const std::string& candidate : names) {
+    const std::size_t distance = edit_distance(name, candidate);
+    if (distance < least && distance < candidate.size()) {
+      least = distance;
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
+
+std::string no_such_name(std::string_view kind, std::string_view name,
+                         const std::vector<std::string>& names)
+{
+  const std::string near = nearest_name(name, names);
+  const std::string hint = near.empty() ? "" : fmt::format(" did you mean \"{}\"?", near);
+  constexpr std::size_t most = 30;  // the curves of a .step may be hundreds
+  const auto n_listed = static_cast<std::ptrdiff_t>(std::min(names.size(), most));
+  const std::string more =
+      names.size() > most ? fmt::format(" and {} more", names.size() - most) : "";
+  return fmt::format("no such {} in the scene;{} there are: {}{}", kind, hint,
+                     quoted_list({names.begin(), names.begin() + n_listed}), more);
 }
 
 }  // namespace chladni::scene

@@ -1,13 +1,34 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "scene/admissible.hpp"
-
 namespace chladni::scene {
+
+/// The numbers that a key accepts; never infinite or NaN.
+struct Admissible {
+  double above = -std::numeric_limits<double>::infinity();     ///< exclusive
+  double at_least = -std::numeric_limits<double>::infinity();  ///< inclusive
+  double below = std::numeric_limits<double>::infinity();      ///< exclusive
+  double at_most = std::numeric_limits<double>::infinity();    ///< inclusive
+  std::string_view unit = {};                                  ///< for messages
+  /// A number outside usual_from to usual_to gets a note, unless it is 1.
+  double usual_from = -std::numeric_limits<double>::infinity();
+  double usual_to = std::numeric_limits<double>::infinity();
+  std::string_view usually = {};  ///< text of that note, such as "a steel has 2.1e11 Pa"
+};
+
+/// Whether the number is accepted.
+bool admits(const Admissible& admissible, double x);
+
+/// The numbers that both accept. Unit and note are those of `b` if it has them, else those of `a`.
+Admissible both(const Admissible& a, const Admissible& b);
+
+/// The requirement as text, `> 0 and <= 5 (m)`, after `kind` if that is not empty.
+std::string requirement(const Admissible& admissible, std::string_view kind = {});
 
 /// Type of a key's value.
 enum class KeyKind {
@@ -52,5 +73,20 @@ std::vector<std::string> words_of(const Key& key);
 
 /// All rows as Markdown, for docs/reference/scene.md.
 std::string scene_reference();
+
+/// Whether the list contains the name.
+bool contains(const std::vector<std::string>& names, std::string_view name);
+
+/// The names as `"a", "b", "c"` for messages; `(none)` for an empty list.
+std::string quoted_list(const std::vector<std::string>& names);
+
+/// The most similar name that differs by at most two letters (by one in a word of three).
+/// @return empty when there is none
+std::string nearest_name(std::string_view name, const std::vector<std::string>& names);
+
+/// Why an unknown name of this kind is refused: `no such ring in the scene; did you mean "track"?
+/// there are: "track", "rim"`.
+std::string no_such_name(std::string_view kind, std::string_view name,
+                         const std::vector<std::string>& names);
 
 }  // namespace chladni::scene

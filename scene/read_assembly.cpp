@@ -4,8 +4,7 @@
 #include <numbers>
 #include <utility>
 
-#include "scene/read_tables.hpp"
-#include "scene/squeal_tables.hpp"
+#include "scene/readers.hpp"
 
 namespace chladni::scene {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "scene/read_tables.hpp"
+#include "scene/readers.hpp"
 
 namespace chladni::scene {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/read_tables.hpp"
+#include "scene/readers.hpp"
 
 namespace chladni::scene {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "scene/read_tables.hpp"
+#include "scene/readers.hpp"
 #include "squeal/cycle/cycle_harmonics.hpp"
 
 namespace chladni::scene {

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "common/error.hpp"
-#include "scene/read_tables.hpp"
+#include "scene/readers.hpp"
 
 namespace chladni::scene {
 namespace {

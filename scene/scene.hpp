@@ -7,12 +7,11 @@
 #include "mbs_export/body_options.hpp"
 #include "mbs_export/responses/response_options.hpp"
 #include "mesh/mesh_options.hpp"
-#include "plate/load_options.hpp"
 #include "plate/plate_options.hpp"
 #include "reduce/reduce_options.hpp"
 #include "sound/sound_options.hpp"
+#include "squeal/brake_options.hpp"
 #include "squeal/model_options.hpp"
-#include "squeal/squeal_options.hpp"
 
 namespace chladni::scene {
 

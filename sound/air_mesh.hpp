@@ -1,9 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+
+#include <memory>
+#include <optional>
 #include <vector>
 
-#include "sound/reference_cell.hpp"
+#include "sound/helmholtz_element.hpp"
+#include "sound/outline.hpp"
 
 namespace chladni::sound {
 
@@ -36,6 +40,45 @@ struct AirMesh {
   int dimension() const { return basis.dimension(); }
   int n_nodes() const { return static_cast<int>(positions.rows()); }
   int n_elements() const { return static_cast<int>(elements.rows()); }
+};
+
+/// Options of a mesh of the air around an outline.
+struct AirMeshOptions {
+  int order = 4;           ///< order of the elements
+  double element_size;     ///< largest element size, m
+  double edge_size;        ///< element size at the sharp edges of the body, m
+  double growth = 0.6;     ///< increase of the size per distance from the edges
+  double inner_radius;     ///< radius of the sphere where the absorbing shell begins, m
+  double shell_thickness;  ///< m
+  bool half_space;         ///< mesh only z > 0, for fields antisymmetric about z = 0
+};
+
+/// Triangles in the meridian plane of an axisymmetric outline.
+/// @throws chladni::Error when Gmsh fails or the sphere does not contain the body.
+AirMesh mesh_meridian(const Outline& outline, const AirMeshOptions& options);
+
+/// Tetrahedra around an outline.
+/// @throws chladni::Error when Gmsh fails or the sphere does not contain the body.
+AirMesh mesh_space(const Outline& outline, const AirMeshOptions& options);
+
+/// Finds the element of an air mesh that contains a point, to interpolate nodal fields.
+class Locator {
+ public:
+  explicit Locator(std::shared_ptr<const AirMesh> mesh);
+
+  /// Interpolated values of nodal fields. Below z = 0 of a half space they are those of the mirror
+  /// point with opposite sign.
+  /// @param x  m
+  /// @param p  [n_nodes x n_fields]
+  /// @return [n_fields]
+  /// @throws chladni::Error when no element contains the point, so that it is inside the body.
+  Eigen::RowVectorXcd value(const Eigen::Vector3d& x, const Eigen::MatrixXcd& p) const;
+
+ private:
+  std::optional<Eigen::RowVectorXd> reference_place(int element, const Eigen::RowVectorXd& x) const;
+
+  std::shared_ptr<const AirMesh> mesh_;
+  Eigen::MatrixXd low_, high_;  ///< [n_elements x dimension] bounding boxes of the elements
 };
 
 }  // namespace chladni::sound

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "common/packing.hpp"
-#include "sound/mesh_air.hpp"
+#include "sound/air_mesh.hpp"
 #include "sound/outline.hpp"
 
 /// A mesh of the air on its way from chladni-mesher, the program in which Gmsh makes it.

@@ -8,9 +8,10 @@
 #include "common/error.hpp"
 
 namespace chladni::sound {
-namespace {
 
 using std::numbers::pi;
+
+namespace {
 
 /// Wavelengths per element: 24 nodes per wavelength at order 6 leave 1e-5 of the field, 14 at order
 /// 2 about 1e-2.

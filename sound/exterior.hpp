@@ -1,12 +1,62 @@
 #pragma once
 
-#include <memory>
+#include <zmumps_c.h>
+#include <Eigen/SparseCore>
 
-#include "sound/body_surface.hpp"
-#include "sound/complex_factor.hpp"
-#include "sound/wave.hpp"
+#include <complex>
+#include <memory>
+#include <vector>
+
+#include "sound/air_mesh.hpp"
+#include "sound/air_plan.hpp"
 
 namespace chladni::sound {
+
+/// Integration points on the surface of the body; in a half space only those with z > 0.
+struct BodySurface {
+  Eigen::MatrixXd x;       ///< [n_points x 2 or 3] m
+  Eigen::MatrixXd normal;  ///< [n_points x 2 or 3] unit vectors into the air
+  Eigen::VectorXd weight;  ///< [n_points] area, m^2; for a meridian arc length times r, m^2 / rad
+  /// [n_points x n_nodes] interpolates nodal values at the points.
+  Eigen::SparseMatrix<double, Eigen::RowMajor> trace;
+
+  Eigen::Index n_points() const { return weight.size(); }
+};
+
+/// The integration points on the body's surface of a mesh.
+BodySurface body_surface(const AirMesh& mesh);
+
+/// Factor from the sum over the integration points to the integral over the whole surface, for the
+/// square of a field with cos(n phi).
+double surface_measure(const AirMesh& mesh, int n);
+
+/// LDL^T factor of a complex symmetric matrix, computed by MUMPS on this process alone with an
+/// ordering by METIS.
+/// @note MPI must be initialised.
+class ComplexFactor {
+ public:
+  using Sparse = Eigen::SparseMatrix<std::complex<double>>;
+
+  /// Factorises a matrix.
+  /// @param lower  its lower triangle
+  /// @throws chladni::Error when the factorisation fails.
+  explicit ComplexFactor(const Sparse& lower);
+  ~ComplexFactor();
+  ComplexFactor(const ComplexFactor&) = delete;
+  ComplexFactor& operator=(const ComplexFactor&) = delete;
+
+  /// Solves for any number of right-hand sides, one per column.
+  /// @throws chladni::Error when MUMPS fails.
+  Eigen::MatrixXcd solve(Eigen::MatrixXcd right_hand_sides);
+  double memory_MiB() const { return mumps_.infog[21]; }  ///< INFOG(22)
+
+ private:
+  void call(int job, const char* what);
+
+  ZMUMPS_STRUC_C mumps_{};
+  std::vector<int> rows_, columns_, order_;
+  std::vector<std::complex<double>> values_;
+};
 
 /// Solver for the sound field around a vibrating body in free space: Delta p + k^2 p = 0 in the
 /// air, dp/dn = -i omega rho v_n on the body with the normal into the air, and outgoing waves.

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sound/locate.hpp"
+#include "sound/air_mesh.hpp"
 
 namespace chladni::sound {
 namespace {

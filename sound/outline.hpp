@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <array>
 #include <vector>
 
@@ -47,5 +48,49 @@ bool mirrored(const Outline& outline);
 /// The smallest length that a mesh must resolve: the shortest edge of a quadrilateral or the
 /// smallest hole diameter, m.
 double smallest_length(const Outline& outline);
+
+/// A straight piece of the middle surface of a shell of revolution, in the meridian plane.
+struct MidLine {
+  Eigen::Vector2d from, to;  ///< (r, z), m
+  double thickness;          ///< m
+
+  double length() const { return (to - from).norm(); }
+  Eigen::Vector2d tangent() const { return (to - from) / length(); }
+  /// The tangent turned by 90 degrees from r to z: +z for a line that goes outward.
+  Eigen::Vector2d normal() const { return {-tangent()[1], tangent()[0]}; }
+};
+
+/// Condition of the hole in the middle of a disc.
+enum class Hub {
+  closed,  ///< filled by a part that does not move
+  open
+};
+
+/// A body that consists of thick shells of revolution.
+struct ThickBody {
+  std::vector<MidLine> lines;
+  Outline outline;
+};
+
+/// The body with these middle lines.
+/// @throws chladni::Error when there is no line, or a line has no length, has no thickness or
+///         crosses the axis.
+ThickBody thick_body(const std::vector<MidLine>& lines, Hub hub,
+                     const std::vector<Holes>& holes = {});
+
+/// Position of a point of the meridian plane in the body.
+struct Place {
+  int line;     ///< index of the line
+  double s;     ///< coordinate along the line from its beginning, m, between 0 and its length
+  double zeta;  ///< coordinate across the line, m
+};
+
+/// The position relative to the nearest line, with distances in units of the line's thickness.
+/// @param x  (r, z), m
+Place nearest_place(const std::vector<MidLine>& lines, const Eigen::Vector2d& x);
+
+/// Whether there are lines both above and below a point (r, z) of the meridian plane, as for a vane
+/// between the two rings of a ventilated disc.
+bool lies_between(const std::vector<MidLine>& lines, const Eigen::Vector2d& x);
 
 }  // namespace chladni::sound

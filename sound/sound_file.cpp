@@ -7,8 +7,8 @@
 
 #include "common/eigen_every.hpp"
 #include "files/hdf5.hpp"
-#include "mbs_export/files/provenance.hpp"
-#include "sound/field_picture.hpp"
+#include "mbs_export/files/body_files.hpp"
+#include "sound/tone.hpp"
 
 namespace chladni::sound {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sound/air_plan.hpp"
-#include "sound/thick_body.hpp"
+#include "sound/outline.hpp"
 
 namespace chladni::sound {
 

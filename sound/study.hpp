@@ -6,8 +6,8 @@
 
 #include "sound/levels.hpp"
 #include "squeal/brake/radiation.hpp"
-#include "squeal/results/results.hpp"
-#include "squeal/squeal_options.hpp"
+#include "squeal/brake_options.hpp"
+#include "squeal/results/squeal_results.hpp"
 
 namespace chladni::sound {
 

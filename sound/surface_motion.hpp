@@ -1,14 +1,33 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <array>
 #include <vector>
 
 #include "mbs_export/modal_body.hpp"
-#include "sound/body_surface.hpp"
-#include "sound/splines.hpp"
-#include "sound/thick_body.hpp"
+#include "sound/exterior.hpp"
+#include "sound/outline.hpp"
 
 namespace chladni::sound {
+
+/// Cubic B-splines on [0, length] with equal intervals.
+class Splines {
+ public:
+  Splines(double length, int n_intervals);
+
+  int size() const { return n_intervals_ + 3; }
+  /// Values of all splines at s; s outside the interval is moved to its nearest end.
+  Eigen::RowVectorXd values(double s) const;
+  /// Derivatives of all splines by s, at the same s.
+  Eigen::RowVectorXd slopes(double s) const;
+
+ private:
+  Eigen::RowVectorXd evaluate(double s, int derivative) const;
+
+  double length_;
+  int n_intervals_;
+};
 
 /// Even or odd function of the angle around the axis: cos(n phi) or sin(n phi).
 enum class Parity { cosine, sine };

@@ -3,8 +3,8 @@
 #include <variant>
 
 #include "squeal/assembly_options.hpp"
+#include "squeal/brake_options.hpp"
 #include "squeal/friction.hpp"
-#include "squeal/squeal_options.hpp"
 #include "squeal/study_options.hpp"
 
 namespace chladni::squeal {

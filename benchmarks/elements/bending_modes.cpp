@@ -9,7 +9,7 @@
 
 #include "common/eigen_every.hpp"
 #include "plate/elements/shell_element.hpp"
-#include "plate/sections/directors.hpp"
+#include "plate/sections/sections.hpp"
 #include "reduce/fixed_interface_modes.hpp"
 #include "serendipity.hpp"
 

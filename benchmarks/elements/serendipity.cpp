@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "plate/elements/strain_energy.hpp"
+#include "plate/elements/shell_strains.hpp"
 
 namespace chladni::benchmarks {
 

@@ -9,8 +9,8 @@
 #include "linear/dense/dense_solvers.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "squeal/stability/rotation_stability.hpp"
-#include "squeal/stability/stability.hpp"
 #include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal::bench {

@@ -7,7 +7,7 @@
 #include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
-#include "squeal/stability/stability.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "squeal/stability/stability_map.hpp"
 #include "squeal/transient/integrator_choice.hpp"
 #include "squeal/transient/transient.hpp"

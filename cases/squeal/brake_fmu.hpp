@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "mbs_export/formats/fmu.hpp"
+#include "mbs_export/formats/fmu_archive.hpp"
 #include "report/origin.hpp"
 #include "scene/scene.hpp"
 

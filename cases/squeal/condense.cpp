@@ -7,9 +7,9 @@
 #include <utility>
 #include <variant>
 
-#include "cases/squeal/part_bodies.hpp"
+#include "cases/squeal/squeal_case.hpp"
 #include "common/error.hpp"
-#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 
 namespace chladni::cases {
 namespace {

@@ -1,33 +1,37 @@
 #include "cases/squeal/squeal_case.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <span>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "cases/squeal/part_bodies.hpp"
 #include "common/error.hpp"
-#include "files/file_digest.hpp"
 #include "files/hdf5.hpp"
-#include "mbs_export/files/body_file.hpp"
-#include "mbs_export/files/provenance.hpp"
+#include "files/input_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "report/version.hpp"
+#include "scene/scene_text.hpp"
 #include "squeal/brake/disc.hpp"
-#include "squeal/brake/mode_parts.hpp"
 #include "squeal/brake/radiation.hpp"
 #include "squeal/models/assembly_brake.hpp"
+#include "squeal/models/brake.hpp"
 #include "squeal/models/flexible_disc.hpp"
-#include "squeal/models/model_brake.hpp"
+#include "squeal/results/squeal_results.hpp"
+#include "squeal/results/sweep_table.hpp"
 
 namespace chladni::cases {
-namespace {
 
 using std::filesystem::path;
+
+namespace {
 
 squeal::Radiation read_radiation_of(const scene::Scene& scene, const SquealFiles& files,
                                     StaleChoice stale)
@@ -214,6 +218,154 @@ squeal::RunOrigin squeal_origin(const scene::Scene& scene,
       std::move(origin),
       inputs_of(body ? files.body : path(), scene.radiation ? files.radiation : path(),
                 scene.squeal_model ? part_files(*scene.squeal_model, files) : std::vector<path>())};
+}
+
+namespace {
+
+/// Nothing that the body of a part was made from has changed in its own scene, where that is at
+/// hand.
+void require_of_own_scene(const path& file, const mbs_export::ModalBody& body, report::Stale stale)
+{
+  if (body.provenance.scene_file.empty()) return;
+  const path own = (file.parent_path() / body.provenance.scene_file).lexically_normal();
+  if (!std::filesystem::is_regular_file(own)) return;
+  try {
+    report::require_of_scene(scene::read_scene(own.string()),
+                             {.file = file, .what = report::Made::body, .origin = body.provenance},
+                             stale);
+  } catch (const Error& error) {
+    if (!body.condensation) throw;
+    throw Error(
+        fmt::format("{}; this body is condensed: make the large one anew where it was, then "
+                    "run `squeal condense` again",
+                    error.what()));
+  }
+}
+
+}  // namespace
+
+std::vector<path> part_files(const squeal::ModelOptions& model, const SquealFiles& files)
+{
+  std::vector<path> bodies;
+  if (const auto* options = std::get_if<squeal::AssemblyOptions>(&model.model))
+    for (const squeal::PartOptions& part : options->parts)
+      bodies.push_back(files.folder / part.body);
+  return bodies;
+}
+
+std::vector<mbs_export::ModalBody> part_bodies(const scene::Scene& scene, const SquealFiles& files,
+                                               StaleChoice stale)
+{
+  std::vector<mbs_export::ModalBody> bodies;
+  const std::vector<path> names = part_files(scene.squeal_model.value(), files);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto same = std::ranges::find(names.begin(), names.begin() + std::ptrdiff_t(i), names[i]);
+    if (const auto j = same - names.begin(); j < std::ptrdiff_t(i)) {
+      bodies.push_back(bodies[static_cast<std::size_t>(j)]);
+      continue;
+    }
+    if (!std::filesystem::exists(names[i])) {
+      throw Error(fmt::format(
+          "{}: part[{}].body: {}: no such file; make it with `chladni run` of that body's scene "
+          "and the same --output",
+          scene.path, i + 1, names[i].string()));
+    }
+    bodies.push_back(mbs_export::read_body(names[i]));
+    if (stale) require_of_own_scene(names[i], bodies.back(), *stale);
+  }
+  return bodies;
+}
+
+namespace {
+
+/// Refuses what another run left in `file`.
+void require_same(const path& file, const squeal::RunOrigin& then, const squeal::RunOrigin& now)
+{
+  const std::vector<std::string> changed =
+      scene::changed_keys(then.provenance.scene, now.provenance.scene, scene::Step::squeal);
+  if (!changed.empty()) {
+    throw Error(fmt::format(
+        "{}: cannot be resumed, since the scene has changed: {}; --overwrite begins anew",
+        file.string(), fmt::join(changed, ", ")));
+  }
+  if (then.inputs != now.inputs) {
+    throw Error(
+        fmt::format("{}: cannot be resumed: it was made from {}, and this run has {}; "
+                    "--overwrite begins anew",
+                    file.string(), then.inputs, now.inputs));
+  }
+}
+
+/// The origin of the state that was left behind.
+squeal::RunOrigin read_state(squeal::Checkpoint& checkpoint)
+{
+  try {
+    return checkpoint.read();
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}\nRemove it: --resume then keeps the analyses that are finished",
+                            error.what()));
+  }
+}
+
+}  // namespace
+
+squeal::SquealResults resume(const LeftBehind& left, const squeal::RunOrigin& origin,
+                             squeal::Checkpoint& checkpoint)
+{
+  squeal::SquealResults begin;
+  if (exists(left.results)) {
+    const files::Reader reader(left.results.string());
+    begin = squeal::read_results(reader);
+    if (!begin.missing.empty()) {
+      require_same(left.results, {mbs_export::file_parts::read_provenance(reader), begin.inputs},
+                   origin);
+    }
+  }
+  const bool has_checkpoint = exists(left.checkpoint);
+  if (has_checkpoint) require_same(left.checkpoint, read_state(checkpoint), origin);
+  if (!has_checkpoint && begin.missing.empty()) {
+    throw Error(fmt::format(
+        "--resume: no run was interrupted here: there is neither {} nor an unfinished {}; run "
+        "without --resume",
+        left.checkpoint.string(), left.results.string()));
+  }
+  return begin.missing.empty() ? squeal::SquealResults{} : begin;
+}
+
+squeal::SweepTable resume(const path& file, const squeal::SweepTable& wanted,
+                          const squeal::RunOrigin& origin)
+{
+  if (!exists(file))
+    throw Error(fmt::format("--resume: there is no {}; run without --resume", file.string()));
+  const files::Reader reader(file.string());
+  squeal::SweepTable left = squeal::read_sweep(reader);
+  const auto refuse = [&](const std::string& why) {
+    throw Error(fmt::format("{}: cannot be resumed, since {}; --overwrite begins anew",
+                            file.string(), why));
+  };
+  if (left.count(squeal::VariantState::to_do) == 0) refuse("no variant is left to do");
+  if (left.keys != wanted.keys) refuse("other keys vary");
+  if (left.values.rows() != wanted.values.rows() || left.values != wanted.values)
+    refuse("the keys take other values");
+  const auto changed = scene::changed_keys(mbs_export::file_parts::read_provenance(reader).scene,
+                                           origin.provenance.scene, scene::Step::squeal);
+  if (!changed.empty()) refuse("the scene has changed: " + changed.front());
+  if (left.columns != wanted.columns || left.inputs != wanted.inputs)
+    refuse(fmt::format("it was made from {}, and this run has {}", left.inputs, wanted.inputs));
+  return left;
+}
+
+void require_no_unfinished_sweep(const path& file)
+{
+  if (!exists(file)) return;
+  const files::Reader reader(file.string());
+  if (reader.text_attribute("/", "format") != squeal::sweep_format) return;
+  const squeal::SweepTable left = squeal::read_sweep(reader);
+  if (left.count(squeal::VariantState::to_do) == 0) return;
+  throw Error(
+      fmt::format("{}: a sweep that was interrupted; --resume goes on from it, --overwrite begins "
+                  "anew",
+                  file.string()));
 }
 
 }  // namespace chladni::cases

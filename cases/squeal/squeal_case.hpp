@@ -9,11 +9,15 @@
 #include "mbs_export/modal_body.hpp"
 #include "report/origin.hpp"
 #include "scene/scene.hpp"
+#include "squeal/model_options.hpp"
 #include "squeal/models/brake.hpp"
+#include "squeal/results/squeal_results.hpp"
+#include "squeal/results/sweep_table.hpp"
 #include "squeal/study_options.hpp"
 #include "squeal/transient/checkpoint.hpp"
 
 /// From a scene and its body to a brake and its study, without PETSc.
+
 namespace chladni::cases {
 
 /// The files of a squeal run.
@@ -62,5 +66,44 @@ const squeal::StudyOptions& study_of(const scene::Scene& scene);
 squeal::RunOrigin squeal_origin(const scene::Scene& scene,
                                 const std::optional<mbs_export::ModalBody>& body,
                                 const SquealFiles& files, const std::string& scene_file);
+
+/// The body files of an assembly's parts, in their order, as seen from where the program runs;
+/// empty for another model.
+std::vector<std::filesystem::path> part_files(const squeal::ModelOptions& model,
+                                              const SquealFiles& files);
+
+/// The bodies of an assembly's parts; equal files are read once.
+/// @throws chladni::Error when a file is missing or damaged, or was made of another scene than the
+///         one that now lies where its own did.
+std::vector<mbs_export::ModalBody> part_bodies(const scene::Scene& scene, const SquealFiles& files,
+                                               StaleChoice stale);
+
+}  // namespace chladni::cases
+
+/// Continuing interrupted runs.
+
+namespace chladni::cases {
+
+/// The files in which an interrupted run left its results and its state.
+struct LeftBehind {
+  std::filesystem::path results, checkpoint;
+};
+
+/// The unfinished results of an interrupted run of this origin. Reads the checkpoint as well.
+/// @return results; empty if there are none yet
+/// @throws chladni::Error when nothing was left, or when it is of another scene, body or version,
+///         which the message names.
+squeal::SquealResults resume(const LeftBehind& left, const squeal::RunOrigin& origin,
+                             squeal::Checkpoint& checkpoint);
+
+/// The sweep in a file, if it is the one that is asked for.
+/// @param wanted  the sweep with all variants to do
+/// @throws chladni::Error with the reason when there is no such file or it cannot be continued.
+squeal::SweepTable resume(const std::filesystem::path& sweep_file, const squeal::SweepTable& wanted,
+                          const squeal::RunOrigin& origin);
+
+/// Checks that the file holds no interrupted sweep, which a new start would overwrite.
+/// @throws chladni::Error when it does.
+void require_no_unfinished_sweep(const std::filesystem::path& sweep_file);
 
 }  // namespace chladni::cases

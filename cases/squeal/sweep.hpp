@@ -1,18 +1,39 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "cases/squeal/sweep_values.hpp"
+#include "cases/squeal/squeal_case.hpp"
+#include "files/hdf5.hpp"
 #include "scene/scene.hpp"
-#include "scene/scene_numbers.hpp"
+#include "scene/scene_text.hpp"
 #include "squeal/models/brake.hpp"
 #include "squeal/results/sweep_table.hpp"
 #include "squeal/study_options.hpp"
 
 namespace chladni::cases {
+
+/// The keys of a scene that vary, and their values in each variant.
+struct SweepValues {
+  std::vector<std::string> keys;
+  files::RowMajorMatrix values;  ///< [n_variants x n_keys], in the units of the scene
+};
+
+/// The largest number of variants; more are taken for a mistake in a count.
+inline constexpr double variants_max = 1e6;
+
+/// The grid of some keys; the last one varies fastest.
+/// @param words  "KEY=FROM:TO:COUNT", equally spaced with both ends, or "KEY=VALUE,VALUE,..."
+/// @throws chladni::Error for a word of another form, a key that occurs twice, and for more than
+///         `variants_max` variants.
+SweepValues sweep_grid(const std::vector<std::string>& words);
+
+/// The variants in a file of comma-separated values: keys in the first line, then numbers.
+/// @throws chladni::Error naming file, line and cell.
+SweepValues read_samples(const std::string& file);
 
 /// A scene and the places of its text in which variants have other numbers.
 struct SweepCase {
@@ -51,5 +72,29 @@ struct SweepKeeping {
 /// before.
 squeal::SweepTable sweep(const SweepCase& sweep, squeal::SweepTable table,
                          const SweepKeeping& keeping);
+
+/// The request for a sweep.
+struct SweepRequest {
+  std::string scene;                   ///< path of the scene file
+  std::filesystem::path folder, body;  ///< as for `squeal_files`
+  SweepValues values;
+  /// Empty: those of the scene that yield single numbers.
+  std::vector<std::string> analyses;
+  StaleChoice stale;
+};
+
+/// A sweep with its scene and table.
+struct SweepStudy {
+  SweepCase sweep;
+  squeal::SweepTable table;  ///< with all variants to do
+  squeal::RunOrigin origin;
+  std::vector<std::string> notes;
+};
+
+/// Prepares a sweep.
+/// @param scene_file  path of the scene file relative to the folder of the results
+/// @throws chladni::Error when the scene, a key or the body is refused, or when no analysis of the
+///         scene yields numbers that a sweep keeps.
+SweepStudy sweep_study(const SweepRequest& request, const std::string& scene_file);
 
 }  // namespace chladni::cases

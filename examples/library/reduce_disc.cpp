@@ -5,14 +5,13 @@
 #include <numbers>
 #include <vector>
 
-#include "mbs_export/files/body_file.hpp"
-#include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "mbs_export/make_body.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/partition.hpp"
 #include "plate/assembly/assemble.hpp"
-#include "reduce/held_masters.hpp"
 #include "reduce/reduction.hpp"
+#include "reduce/support.hpp"
 #include "reduce_export/reduced_system.hpp"
 
 namespace {

@@ -5,9 +5,9 @@
 #include <numeric>
 #include <utility>
 
-#include "common/index_sets.hpp"
-#include "linear/kernels/fingerprint.hpp"
+#include "common/petsc.hpp"
 #include "linear/kernels/gather.hpp"
+#include "linear/kernels/matrix_graph.hpp"
 
 namespace chladni::linear {
 

@@ -6,13 +6,10 @@
 #include <string>
 #include <string_view>
 
-#include "linear/cholesky/extended_order.hpp"
-#include "linear/cholesky/inner_solver.hpp"
-#include "linear/cholesky/supernodal_of.hpp"
-#include "linear/kernels/as_aij.hpp"
-#include "linear/kernels/diagonal.hpp"
-#include "linear/kernels/own_submatrix.hpp"
-#include "linear/kernels/shifted.hpp"
+#include "linear/cholesky/elimination_order.hpp"
+#include "linear/cholesky/factorization.hpp"
+#include "linear/cholesky/petsc_factor.hpp"
+#include "linear/kernels/sparse_matrices.hpp"
 
 namespace chladni::linear {
 

@@ -1,7 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <limits>
+#include <vector>
+
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::linear {
 
@@ -44,5 +48,47 @@ Eigenmodes lowest_eigenmodes(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M,
 /// @throws chladni::Error as `eigenmodes` when K is singular beyond R.
 double first_eigenvalue(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M,
                         const Eigen::MatrixXd& R);
+
+/// A stiffness-to-mass ratio of the lower modes: the smallest K_ii / M_ii that is no round-off, in
+/// K or in M; 1 where there is none.
+/// @param R  [n x r] with K R = 0, R^T M R = I; r may be 0
+double deflation_shift(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M,
+                       const Eigen::MatrixXd& R);
+
+/// Cholesky factor of K + sigma M R R^T M, with the round-off of K along R removed.
+/// @param K      [n x n], symmetric, positive definite on the complement of R
+/// @param R      [n x r] with K R = 0, R^T M R = I; r may be 0
+/// @param sigma  of the size of the lower eigenvalues: deflation_shift() of the whole problem
+/// @throws chladni::Error when K is singular beyond R: not positive definite, or positive by
+///         round-off along a motion without mass.
+Eigen::LLT<Eigen::MatrixXd> deflated_factor(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M,
+                                            const Eigen::MatrixXd& R, double sigma);
+
+/// The coordinates of two symmetric matrices in sets that neither couples with the others, each set
+/// ascending, by its first coordinate. What is coupled by round-off is coupled.
+std::vector<std::vector<Eigen::Index>> decoupled_coordinates(const Eigen::MatrixXd& K,
+                                                             const Eigen::MatrixXd& M);
+
+/// Modes of coordinates that are coupled to no others.
+struct PartModes {
+  std::vector<Eigen::Index> coordinates;
+  Eigenmodes modes;  ///< in these coordinates
+};
+
+/// eigenmodes() of coordinates of a problem whose largest 1 / lambda is `mu_of_whole` or more: what
+/// is round-off beside that has no mass.
+Eigenmodes eigenmodes_of_part(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M,
+                              const Eigen::MatrixXd& R, double mu_of_whole,
+                              double orthonormal_to = 1e-8);
+
+/// The modes of all parts in n coordinates.
+Eigenmodes merged(const std::vector<PartModes>& parts, Eigen::Index n);
+
+/// The eigenvalues of a real matrix, of which no eigenvector is asked for; of a complex pair the
+/// one with the positive imaginary part first. Takes a third of the time of Eigen::EigenSolver,
+/// which transforms all of the triangle also where it keeps no vectors.
+/// @param A  [n x n]
+/// @throws chladni::Error where the QR iteration does not converge, as for what is not finite.
+Eigen::VectorXcd real_eigenvalues(const Eigen::MatrixXd& A);
 
 }  // namespace chladni::linear

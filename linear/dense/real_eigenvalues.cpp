@@ -1,4 +1,4 @@
-#include "linear/dense/real_eigenvalues.hpp"
+#include "linear/dense/eigenmodes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 #include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::linear {
-namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
+using Eigen::Index, Eigen::MatrixXd;
+
+namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// For each row of the matrix; two are usual.

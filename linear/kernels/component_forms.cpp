@@ -1,14 +1,14 @@
-#include "linear/kernels/component_forms.hpp"
+#include "linear/kernels/forms.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "common/eigen_every.hpp"
-#include "linear/kernels/aligned_numbers.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/gather.hpp"
-#include "linear/kernels/own_submatrix.hpp"
+#include "linear/kernels/sparse_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
+#include "linear/kernels/storage.hpp"
 #include "linear/progress.hpp"
 
 namespace chladni::linear {

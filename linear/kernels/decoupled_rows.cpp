@@ -4,10 +4,9 @@
 #include <numeric>
 #include <utility>
 
-#include "common/index_sets.hpp"
-#include "linear/kernels/as_aij.hpp"
+#include "common/petsc.hpp"
 #include "linear/kernels/gather.hpp"
-#include "linear/kernels/values_at.hpp"
+#include "linear/kernels/sparse_matrices.hpp"
 
 namespace chladni::linear {
 
@@ -83,11 +82,11 @@ std::vector<Edge> unite_own(Mat A, const Kept& is_kept, Unions& rows)
   return edges;
 }
 
-constexpr PetscInt left_out = -1;
+constexpr PetscInt no_piece = -1;
 
 /// Sets of rows of this rank, numbered over all ranks.
 struct Pieces {
-  std::vector<PetscInt> of_row;  ///< [own rows] global number, or `left_out`
+  std::vector<PetscInt> of_row;  ///< [own rows] global number, or `no_piece`
   PetscInt first = 0, n_own = 0, n_all = 0;
 };
 
@@ -103,7 +102,7 @@ Pieces numbered(Unions& rows, const Kept& is_kept, const std::vector<Edge>& edge
   PetscInt of_small = -1;
   for (PetscInt i = 0; i < rows.size(); ++i) {
     if (is_kept[i] == 0) {
-      pieces.of_row.push_back(left_out);
+      pieces.of_row.push_back(no_piece);
       continue;
     }
     const PetscInt root = rows.root(i);
@@ -116,7 +115,7 @@ Pieces numbered(Unions& rows, const Kept& is_kept, const std::vector<Edge>& edge
   pieces.first -= pieces.n_own;
   MPI_Allreduce(&pieces.n_own, &pieces.n_all, 1, MPIU_INT, MPI_SUM, comm);
   for (PetscInt& piece : pieces.of_row)
-    if (piece != left_out) piece += pieces.first;
+    if (piece != no_piece) piece += pieces.first;
   return pieces;
 }
 
@@ -133,7 +132,7 @@ std::vector<PetscInt> joints(const Pieces& pieces, const std::vector<Edge>& edge
   for (const Edge& edge : edges) {
     const auto place = std::ranges::lower_bound(rows, edge.other) - rows.begin();
     const auto other = static_cast<PetscInt>(piece_at[place]);
-    if (other == left_out) continue;
+    if (other == no_piece) continue;
     pairs.emplace_back(pieces.of_row[edge.own], other);
     if (pairs.size() > 1 && pairs.back() == pairs[pairs.size() - 2]) pairs.pop_back();
   }
@@ -153,7 +152,7 @@ std::pair<std::vector<double>, std::vector<double>> sizes(const std::vector<Pets
 {
   std::vector<double> own(n, 0.0), sum(n), largest(n);
   for (const PetscInt set : set_of_row)
-    if (set != left_out) own[set] += 1.0;
+    if (set != no_piece) own[set] += 1.0;
   MPI_Allreduce(own.data(), sum.data(), static_cast<int>(n), MPI_DOUBLE, MPI_SUM, comm);
   MPI_Allreduce(own.data(), largest.data(), static_cast<int>(n), MPI_DOUBLE, MPI_MAX, comm);
   return {sum, largest};
@@ -179,7 +178,7 @@ PetscInt unite_small_sets(std::vector<PetscInt>& set_of_row, PetscInt n, MPI_Com
     kept += sum[alone[k]];
   }
   for (PetscInt& set : set_of_row)
-    if (set != left_out) set = number[set] == -1 ? n_sets : number[set];
+    if (set != no_piece) set = number[set] == -1 ? n_sets : number[set];
   return kept < all ? n_sets + 1 : n_sets;
 }
 
@@ -200,12 +199,12 @@ std::vector<petsc::IndexSet> decoupled(Mat K, Mat M, const Kept& is_kept)
   for (std::size_t k = 0; k < joined.size(); k += 2) all.unite(joined[k], joined[k + 1]);
   std::vector<PetscInt> set_of_row = pieces.of_row;
   for (PetscInt& set : set_of_row)
-    if (set != left_out) set = all.root(set);
+    if (set != no_piece) set = all.root(set);
   const PetscInt n_sets = unite_small_sets(set_of_row, pieces.n_all, comm);
   if (n_sets < 2) return {};
   std::vector<std::vector<PetscInt>> members(n_sets);
   for (PetscInt i = 0; i < last - first; ++i)
-    if (set_of_row[i] != left_out) members[set_of_row[i]].push_back(first + i);
+    if (set_of_row[i] != no_piece) members[set_of_row[i]].push_back(first + i);
   std::vector<petsc::IndexSet> sets(n_sets);
   for (PetscInt k = 0; k < n_sets; ++k) {
     petsc::check(ISCreateGeneral(comm, static_cast<PetscInt>(members[k].size()), members[k].data(),

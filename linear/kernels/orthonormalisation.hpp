@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "common/petsc.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 
 namespace chladni::linear {
@@ -28,5 +29,22 @@ Orthonormalisation orthonormalisation(const Eigen::MatrixXd& G, const std::vecto
 
 /// The lengths of the columns of A.
 std::vector<double> column_lengths(const Eigen::MatrixXd& A);
+
+/// sum_j M_jj x_j^2 of each column x of X, to which the round-off of x^T M x is relative.
+/// @note   Collective.
+std::vector<double> diagonal_terms(Mat X, Mat M);
+
+/// The columns x of X with x^T M x above its round-off, which are not in the null space of M.
+/// @note   Collective.
+petsc::Matrix columns_with_mass(Mat X, Mat MX, Mat M);
+
+/// Scales the columns of X to unit length in M; columns without length become zero.
+/// @note   Collective.
+void normalise_columns(Mat X, Mat MX);
+
+/// Fills a dense matrix with pseudo-random numbers in (-1, 1). They depend only on the global row
+/// and on the number of the column, counted from `first_number`, and are the same for any number of
+/// ranks.
+void fill_with_random_numbers(Mat block, PetscInt first_number);
 
 }  // namespace chladni::linear

@@ -6,10 +6,10 @@
 
 #include "common/petsc.hpp"
 #include "linear/kernels/dense_matrices.hpp"
-#include "linear/kernels/growing_memory.hpp"
 #include "linear/kernels/orthonormalisation.hpp"
+#include "linear/kernels/panel_kernels.hpp"
 #include "linear/kernels/sparse_product.hpp"
-#include "linear/kernels/tall_products.hpp"
+#include "linear/kernels/storage.hpp"
 
 namespace chladni::linear {
 

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <span>
 
-#include "linear/kernels/columns_with_mass.hpp"
-#include "linear/kernels/random_block.hpp"
+#include "common/eigen_every.hpp"
+#include "linear/kernels/orthonormalisation.hpp"
 #include "linear/kernels/small_matrices.hpp"
 
 namespace chladni::linear {
@@ -247,6 +247,162 @@ void BlockIteration::begin_anew(PetscInt n, PetscInt width, const BlockOperator&
   sequence_.n_sources = append_random(width, op);
   R_ = MatrixXd(sequence_.n_sources, 0);
   basis_.unite_newest(sequence_.n_sources);
+}
+
+// The vectors that a BlockIteration gives out.
+
+MatrixXd BlockIteration::ritz_coefficients(PetscInt first, PetscInt last) const
+{
+  return ritz_.vectors(every, std::span(order_).subspan(first, last - first));
+}
+
+petsc::Matrix BlockIteration::ritz_vectors(PetscInt n) const
+{
+  return basis_.combine(ritz_coefficients(0, n));
+}
+
+MatrixXd BlockIteration::purified_coefficients(PetscInt first, PetscInt last) const
+{
+  MatrixXd S = MatrixXd::Zero(basis_.n_columns(), last - first);
+  for (PetscInt k = 0; k < S.cols(); ++k) {
+    const auto ritz = static_cast<PetscInt>(first + k);
+    S.col(k).head(n_old_) = ritz_.vectors.col(order_[ritz]);
+    for (PetscInt a = 0; a < basis_.n_columns() - n_old_; ++a) {
+      for (PetscInt c = 0; c < R_.cols(); ++c) {
+        S(n_old_ + a, k) +=
+            R_(a, c) * ritz_.vectors(n_old_ - R_.cols() + c, order_[ritz]) / theta(ritz);
+      }
+    }
+    double norm = 0.0;  // in the M-orthonormal basis
+    for (PetscInt i = 0; i < S.rows(); ++i) norm += S(i, k) * S(i, k);
+    S.col(k) /= std::sqrt(norm);
+  }
+  return S;
+}
+
+petsc::Matrix BlockIteration::purified_vectors(PetscInt first, PetscInt last,
+                                               const BlockOperator& op) const
+{
+  const bool is_whole = std::ranges::all_of(left_out_, [](double length) { return length == 0.0; });
+  if (is_whole) return basis_.combine(purified_coefficients(first, last));
+  return applied_vectors(first, last, op);
+}
+
+/// By one true application of the operator. It amplifies what round-off a vector has of those with
+/// larger |theta|, which is taken out again.
+petsc::Matrix BlockIteration::applied_vectors(PetscInt first, PetscInt last,
+                                              const BlockOperator& op) const
+{
+  constexpr PetscInt width = 32;
+  const petsc::Matrix X = basis_.combine(ritz_coefficients(0, last));
+  petsc::Matrix purified = basis_.new_vectors(last - first);
+  for (PetscInt at = first; at < last; at += width) {
+    const PetscInt end = std::min(at + width, last);
+    const ColumnRange target(purified, at - first, end - first);
+    {
+      const ColumnRange some(X, at, end);
+      op(some, basis_.times_mass(some), target);
+    }
+    MatrixXd C = inner_product(X, basis_.times_mass(target));
+    for (PetscInt k = at; k < end; ++k) {
+      for (PetscInt i = 0; i < last; ++i)
+        if (std::abs(theta(i)) <= std::abs(theta(k))) C(i, k - at) = 0.0;
+    }
+    add_product(-1.0, X, C, target);
+    normalise_columns(target, basis_.times_mass(target));
+  }
+  return purified;
+}
+
+namespace {
+
+/// Whether two eigenvalues converge as one: a vector within the tolerance may mix their
+/// eigenvectors.
+class SameValue {
+ public:
+  SameValue(std::span<const double> theta, double tolerance)
+      : gap_(std::clamp(100.0 * tolerance, 1e-8, 1e-4))
+  {
+    for (const double t : theta) round_off_ = std::max(round_off_, 1e-14 * std::abs(t));
+  }
+  /// Of all values.
+  double round_off() const { return round_off_; }
+  bool operator()(double a, double b) const
+  {
+    return std::abs(a - b) <= std::max(round_off_, gap_ * std::max(std::abs(a), std::abs(b)));
+  }
+
+ private:
+  double gap_;
+  double round_off_ = 0.0;
+};
+
+/// Both ascend in the same order: whether each of theta is the next of the known ones.
+std::vector<bool> are_known(std::span<const double> theta, const KrylovSequence& sequence,
+                            const SameValue& is_same)
+{
+  std::vector<bool> known(theta.size(), false);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < theta.size() && next < sequence.known.size(); ++i) {
+    known[i] = is_same(theta[i], sequence.known[next]);
+    if (known[i]) ++next;
+  }
+  return known;
+}
+
+PetscInt count(const std::vector<bool>& flags, PetscInt first, PetscInt last)
+{
+  return static_cast<PetscInt>(std::count(flags.begin() + first, flags.begin() + last, true));
+}
+
+/// Some cluster that ends before pair n has as many new members as the sequence has sources.
+bool a_cluster_is_full(std::span<const double> theta, const std::vector<bool>& known,
+                       PetscInt n_sources, const SameValue& is_same)
+{
+  const auto n = static_cast<PetscInt>(theta.size());
+  for (PetscInt first = 0, last = 1; last < n; ++last) {
+    if (is_same(theta[last - 1], theta[last])) continue;
+    if (last - first - count(known, first, last) >= n_sources) return true;
+    first = last;
+  }
+  return false;
+}
+
+}  // namespace
+
+PetscInt n_converged_first(const RitzValues& pairs, double tolerance)
+{
+  std::size_t n = 0;
+  while (n < pairs.theta.size() && pairs.residual[n] <= tolerance * std::abs(pairs.theta[n])) ++n;
+  return static_cast<PetscInt>(n);
+}
+
+PetscInt n_known_among(std::span<const double> theta, const KrylovSequence& sequence,
+                       double tolerance)
+{
+  const std::vector<bool> known = are_known(theta, sequence, {theta, tolerance});
+  return count(known, 0, static_cast<PetscInt>(known.size()));
+}
+
+Copies copies_among(const RitzValues& pairs, PetscInt n, const KrylovSequence& sequence,
+                    double tolerance)
+{
+  const std::span<const double> theta(pairs.theta.data(), n);
+  const SameValue is_same(pairs.theta, tolerance);
+  const std::vector<bool> known = are_known(theta, sequence, is_same);
+  if (a_cluster_is_full(theta, known, sequence.n_sources, is_same)) return Copies::may_lack;
+  const auto n_all = static_cast<PetscInt>(pairs.theta.size());
+  const auto n_known = static_cast<PetscInt>(sequence.known.size());
+  // The first that was neither known or guessed nor is among the n must show itself.
+  const PetscInt n_to_show = n_known > 0               ? n_known + (n - count(known, 0, n)) + 1
+                             : n <= sequence.n_guesses ? sequence.n_guesses + 1
+                                                       : 0;
+  const double relative = std::max(resolved, tolerance);
+  for (PetscInt i = 0; i < std::min(n_to_show, n_all); ++i) {
+    const double allowed = std::max(relative * std::abs(pairs.theta[i]), is_same.round_off());
+    if (pairs.residual[i] > allowed) return Copies::not_yet_known;
+  }
+  return Copies::all_there;
 }
 
 }  // namespace chladni::linear

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "common/index_sets.hpp"
-#include "linear/kernels/scratch.hpp"
+#include "common/petsc.hpp"
+#include "linear/kernels/storage.hpp"
 
 namespace chladni::linear {
 

@@ -1,4 +1,4 @@
-#include "mbs_export/formats/exudyn.hpp"
+#include "mbs_export/formats/formats.hpp"
 
 #include <fmt/format.h>
 
@@ -9,12 +9,13 @@
 #include "common/eigen_every.hpp"
 #include "files/hdf5.hpp"
 #include "mbs_export/formats/export_error.hpp"
-#include "mbs_export/formats/inertia_shapes.hpp"
+#include "mbs_export/formats/floating_body.hpp"
 
 namespace chladni::mbs_export::formats {
-namespace {
 
 using Eigen::Index, Eigen::Matrix3d, Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;
+
+namespace {
 
 /// The entries that LoadDictFromHDF5 takes: each object says of which Python type it is.
 class Dictionary {

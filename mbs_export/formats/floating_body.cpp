@@ -6,16 +6,17 @@
 #include <cmath>
 #include <utility>
 
-#include "mbs_export/check_parts.hpp"
+#include "mbs_export/attachment_dofs.hpp"
+#include "mbs_export/check_body.hpp"
 #include "mbs_export/formats/export_error.hpp"
-#include "mbs_export/held_dofs.hpp"
+#include "mbs_export/free_modes.hpp"
 #include "mbs_export/make_body.hpp"
-#include "mbs_export/rigid_body.hpp"
 
 namespace chladni::mbs_export::formats {
-namespace {
 
-using Eigen::Index, Eigen::MatrixXd;
+using Eigen::Index, Eigen::Matrix3d, Eigen::MatrixXd;
+
+namespace {
 
 /// Asks for all reduced coordinates where a picture asks for the displacements of some nodes, so
 /// that the body comes with its modes in the reduced coordinates.
@@ -122,6 +123,24 @@ double coupling(const FloatingBody& floating)
   const double inertia = body.inertia.trace() + body.mass * body.centre_of_mass.squaredNorm();
   return std::max(floating.momentum.colwise().norm().maxCoeff() / std::sqrt(body.mass),
                   floating.angular_momentum.colwise().norm().maxCoeff() / std::sqrt(inertia));
+}
+
+Matrix3d position_tilde_shape(const MassIntegrals& integrals, Index j)
+{
+  // Column j by rows: W_kl = int x_k phi_l dm.
+  const Matrix3d W = integrals.position_displacement.col(j).reshaped(3, 3).transpose();
+  return W.transpose() - W.trace() * Matrix3d::Identity();
+}
+
+MatrixXd cross_product(const MassIntegrals& integrals, int c)
+{
+  const MatrixXd S = displacement_product(integrals, (c + 1) % 3, (c + 2) % 3);
+  return S - S.transpose();
+}
+
+Matrix3d inertia_about_origin(const MassIntegrals& integrals)
+{
+  return integrals.second.trace() * Matrix3d::Identity() - integrals.second;
 }
 
 }  // namespace chladni::mbs_export::formats

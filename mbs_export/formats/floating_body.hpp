@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "mbs_export/body_options.hpp"
+#include "mbs_export/inertia.hpp"
 #include "mbs_export/modal_body.hpp"
 #include "mbs_export/reduced_system.hpp"
 
@@ -27,5 +28,20 @@ FloatingBody floating_body(const ReducedSystem& reduced, const BodyOptions& opti
 /// The largest momentum of a mode over that of the body at the same kinetic energy; below 1e-6 it
 /// is round-off.
 double coupling(const FloatingBody& floating);
+
+}  // namespace chladni::mbs_export::formats
+
+/// The mass integrals in the terms of the floating frame of reference; a~ b = a x b.
+
+namespace chladni::mbs_export::formats {
+
+/// int x~ phi~_j dm = int phi_j x^T - (x . phi_j) I dm, kg m^2 per unit of q.
+Eigen::Matrix3d position_tilde_shape(const MassIntegrals& integrals, Eigen::Index j);
+
+/// int phi~_i phi_j dm = int phi_i x phi_j dm for all i, j: component c, [n x n] skew-symmetric.
+Eigen::MatrixXd cross_product(const MassIntegrals& integrals, int c);
+
+/// J = int (x . x) I - x x^T dm about the origin, kg m^2.
+Eigen::Matrix3d inertia_about_origin(const MassIntegrals& integrals);
 
 }  // namespace chladni::mbs_export::formats

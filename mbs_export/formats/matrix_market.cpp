@@ -1,4 +1,4 @@
-#include "mbs_export/formats/matrix_market.hpp"
+#include "mbs_export/formats/formats.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,10 @@
 #include <numbers>
 
 namespace chladni::mbs_export::formats {
-namespace {
 
 using Eigen::Index, Eigen::MatrixXd;
+
+namespace {
 
 std::string symmetric_array(const MatrixXd& A, const char* what)
 {

@@ -1,4 +1,4 @@
-#include "mbs_export/formats/mbdyn.hpp"
+#include "mbs_export/formats/formats.hpp"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,13 @@
 #include <iterator>
 
 #include "mbs_export/formats/export_error.hpp"
-#include "mbs_export/formats/inertia_shapes.hpp"
+#include "mbs_export/formats/floating_body.hpp"
 
 namespace chladni::mbs_export::formats {
-namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::RowVectorXd;
+
+namespace {
 
 std::string group(int number, const std::string& title)
 {

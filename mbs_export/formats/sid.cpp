@@ -1,4 +1,4 @@
-#include "mbs_export/formats/sid.hpp"
+#include "mbs_export/formats/formats.hpp"
 
 #include <fmt/format.h>
 
@@ -6,17 +6,19 @@
 #include <array>
 #include <iterator>
 #include <numbers>
+#include <set>
 #include <utility>
 #include <vector>
 
+#include "common/error.hpp"
 #include "mbs_export/formats/export_error.hpp"
-#include "mbs_export/formats/inertia_shapes.hpp"
-#include "mbs_export/formats/node_numbers.hpp"
+#include "mbs_export/formats/floating_body.hpp"
 
 namespace chladni::mbs_export::formats {
-namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::Vector3d;
+
+namespace {
 
 /// M(q) = M0 + sum_j M1_j q_j; without a first order `M1` is empty.
 struct Taylor {
@@ -294,6 +296,27 @@ std::string sid_fem(const FloatingBody& floating, const SidOptions& options)
   sid.taylor("De", {body.C.size() > 0 ? body.C : MatrixXd::Zero(n, n)});
   sid.line("end modal");
   return header(body) + "part\n" + sid.text() + "end part\n";
+}
+
+std::vector<int> unique_node_numbers(const std::vector<AttachmentNode>& nodes, int largest)
+{
+  if (nodes.size() > static_cast<std::size_t>(largest)) {
+    throw Error(fmt::format("this format has numbers for {} nodes, and the body has {}", largest,
+                            nodes.size()));
+  }
+  std::vector<int> numbers;
+  std::set<std::int64_t> taken;
+  for (const AttachmentNode& node : nodes) {
+    const bool own = node.number >= 1 && node.number <= largest && taken.insert(node.number).second;
+    numbers.push_back(own ? static_cast<int>(node.number) : 0);
+  }
+  int next = 1;
+  for (int& number : numbers) {
+    if (number != 0) continue;
+    while (!taken.insert(next).second) ++next;
+    number = next;
+  }
+  return numbers;
 }
 
 }  // namespace chladni::mbs_export::formats

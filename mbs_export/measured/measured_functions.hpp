@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <complex>
 #include <cstdint>
 #include <filesystem>

@@ -5,18 +5,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
 
+#include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
-#include "mbs_export/body_damping.hpp"
+#include "mbs_export/attachment_dofs.hpp"
+#include "mbs_export/make_body.hpp"
 #include "mbs_export/measured/measured_functions.hpp"
-#include "mbs_export/responses/measured_beside.hpp"
-#include "mbs_export/responses/response_option_error.hpp"
+#include "mbs_export/responses/response_options.hpp"
 
 namespace chladni::mbs_export {
+
+using Eigen::Index, Eigen::MatrixXcd, Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXcd,
+    Eigen::VectorXd;
+
 namespace {
 
-using Eigen::Index, Eigen::MatrixXcd, Eigen::MatrixXd, Eigen::VectorXcd, Eigen::VectorXd;
 using Complex = std::complex<double>;
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -277,6 +283,284 @@ FrequencyResponses frequency_responses(const ModalBody& body, const ResponseOpti
     }
   }
   return found;
+}
+
+namespace {
+
+/// A place of the scene with the keys that name it.
+struct KeyedPlace {
+  const ResponsePlace& place;
+  std::string key;  ///< "loads[1]"
+};
+
+const AttachmentSet& set_of(const NamedNodes& model, const KeyedPlace& asked)
+{
+  const auto found = std::ranges::find(model.sets, asked.place.at, &AttachmentSet::name);
+  if (found == model.sets.end()) {
+    std::vector<std::string> names;
+    for (const AttachmentSet& set : model.sets) names.push_back(set.name);
+    throw ResponseOptionError(
+        asked.key + ".at",
+        fmt::format("the model has no nodes of this name; there are {}", fmt::join(names, ", ")));
+  }
+  if (found->nodes.empty()) throw ResponseOptionError(asked.key + ".at", "the set has no nodes");
+  return *found;
+}
+
+/// The node of a set that is nearest to the place.
+int nearest(const NamedNodes& model, const AttachmentSet& set, const KeyedPlace& asked)
+{
+  const Vector3d x{(*asked.place.near)[0], (*asked.place.near)[1], (*asked.place.near)[2]};
+  const auto distance = [&](int node) {
+    return (model.nodes[static_cast<std::size_t>(node)].position - x).norm();
+  };
+  const int best = *std::ranges::min_element(set.nodes, {}, distance);
+  constexpr double alike = 1.0 + 1e-6;
+  for (const int node : set.nodes) {
+    if (node == best || distance(node) > alike * distance(best)) continue;
+    throw ResponseOptionError(
+        asked.key + ".near",
+        fmt::format("nodes {} and {} of \"{}\" are equally near, {:.4g} m; move it towards one",
+                    model.nodes[static_cast<std::size_t>(best)].number,
+                    model.nodes[static_cast<std::size_t>(node)].number, set.name, distance(best)));
+  }
+  return best;
+}
+
+std::vector<int> nodes_of(const NamedNodes& model, const KeyedPlace& asked)
+{
+  const AttachmentSet& set = set_of(model, asked);
+  if (!asked.place.near) return set.nodes;
+  return {nearest(model, set, asked)};
+}
+
+/// "track.z", and which of its nodes where the set has others.
+std::string name_of(const NamedNodes& model, const KeyedPlace& asked, int component, int node)
+{
+  const std::string name = fmt::format("{}.{}", asked.place.at, component_name(component));
+  if (set_of(model, asked).nodes.size() == 1) return name;
+  return fmt::format("{} (node {})", name, model.nodes[static_cast<std::size_t>(node)].number);
+}
+
+/// A moment about the normal of a shell acts on a stiffness that elements invent.
+void refuse_drilling_moment(const NamedNodes& model, const ResponseDof& load)
+{
+  if (load.component < 3) return;
+  for (const int node : load.nodes) {
+    const AttachmentNode& one = model.nodes[static_cast<std::size_t>(node)];
+    constexpr double tilt = 1e-2;  // rad, as is_drilling
+    if (std::abs(one.drilling_axis[load.component - 3]) <= tilt) continue;
+    throw ResponseOptionError(
+        load.key,
+        fmt::format("the moment {} turns node {} about the normal of a shell, which only a "
+                    "numerical stiffness resists; load a coupling, or another component",
+                    load.name, one.number));
+  }
+}
+
+void refuse_twins(const std::vector<ResponseDof>& dofs)
+{
+  std::set<std::string> names;
+  for (const ResponseDof& dof : dofs)
+    if (!names.insert(dof.name).second)
+      throw ResponseOptionError(dof.key, fmt::format("{} is asked for twice", dof.name));
+}
+
+}  // namespace
+
+std::vector<ResponseDof> response_loads(const NamedNodes& model,
+                                        const std::vector<ResponsePlace>& places)
+{
+  std::vector<ResponseDof> loads;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const KeyedPlace asked{places[i], fmt::format("loads[{}]", i + 1)};
+    const std::vector<int> nodes = nodes_of(model, asked);
+    for (const int component : asked.place.components) {
+      const std::string name =
+          nodes.size() == 1 ? name_of(model, asked, component, nodes.front())
+                            : fmt::format("{}.{}", asked.place.at, component_name(component));
+      loads.push_back({name, asked.key + ".dofs", component, nodes, asked.place.measured_node});
+      refuse_drilling_moment(model, loads.back());
+    }
+  }
+  refuse_twins(loads);
+  return loads;
+}
+
+std::vector<ResponseDof> response_outputs(const NamedNodes& model,
+                                          const std::vector<ResponsePlace>& places)
+{
+  std::vector<ResponseDof> outputs;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const KeyedPlace asked{places[i], fmt::format("outputs[{}]", i + 1)};
+    const std::vector<int> nodes = nodes_of(model, asked);
+    if (asked.place.measured_node && nodes.size() > 1) {
+      throw ResponseOptionError(
+          asked.key + ".measured_node",
+          fmt::format("\"{}\" has {} nodes, and one node was measured; choose "
+                      "the nearest by `near`",
+                      asked.place.at, nodes.size()));
+    }
+    for (const int node : nodes)
+      for (const int component : asked.place.components) {
+        outputs.push_back({name_of(model, asked, component, node),
+                           asked.key + ".dofs",
+                           component,
+                           {node},
+                           asked.place.measured_node});
+      }
+  }
+  refuse_twins(outputs);
+  return outputs;
+}
+
+namespace {
+
+/// The loads or the outputs, and the measured nodes that belong to them.
+class MeasuredPoints {
+ public:
+  MeasuredPoints(const Measurement& measurement, const std::vector<ResponsePoint>& points)
+      : measured_(*measurement.functions), distance_(measurement.distance), points_(points)
+  {}
+
+  /// The place among the points to which a measured DOF belongs, if there is one.
+  std::optional<std::size_t> of(const MeasuredDof& dof)
+  {
+    std::optional<std::size_t> point = named(dof);
+    if (!point) point = nearest(dof);
+    if (!point) return std::nullopt;
+    const auto place = measured_.nodes.find(dof.node);
+    if (place != measured_.nodes.end() && !place->second.is_in_global_axes) {
+      throw Error(fmt::format(
+          "{}: node {} has a coordinate system of its own; write its functions in the axes of the "
+          "model",
+          measured_.file, dof.node));
+    }
+    const auto [other, is_new] = owners_.emplace(*point, dof.node);
+    if (is_new || other->second == dof.node) return point;
+    throw Error(
+        fmt::format("{}: the measured nodes {} and {} both belong to {}; give a smaller "
+                    "--distance, or name the "
+                    "node by `measured_node`",
+                    measured_.file, other->second, dof.node, points_[*point].name));
+  }
+
+ private:
+  std::optional<std::size_t> named(const MeasuredDof& dof) const
+  {
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (points_[i].measured_node == dof.node && points_[i].component == dof.component) return i;
+    return std::nullopt;
+  }
+
+  /// Of the points of one node that name none of the measurement.
+  std::optional<std::size_t> nearest(const MeasuredDof& dof) const
+  {
+    const auto place = measured_.nodes.find(dof.node);
+    if (!distance_ || place == measured_.nodes.end()) return std::nullopt;
+    std::optional<std::size_t> best;
+    double least = *distance_;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const ResponsePoint& point = points_[i];
+      const double gap = (point.position - place->second.position).norm();
+      const bool is_one_node = point.node != 0;
+      const bool is_candidate =
+          point.component == dof.component && is_one_node && !point.measured_node;
+      if (!is_candidate || gap > least) continue;
+      best = i;
+      least = gap;
+    }
+    return best;
+  }
+
+  const MeasuredFunctions& measured_;
+  std::optional<double> distance_;
+  const std::vector<ResponsePoint>& points_;
+  std::map<std::size_t, std::int64_t> owners_ = {};  ///< measured nodes of the points
+};
+
+std::string text_of(const MeasuredFunctions& measured, const MeasuredDof& dof)
+{
+  const std::string text = fmt::format("node {} {}", dof.node, component_name(dof.component));
+  const auto place = measured.nodes.find(dof.node);
+  if (place == measured.nodes.end()) return text;
+  const Eigen::Vector3d& x = place->second.position;
+  return fmt::format("{} at ({:.4g}, {:.4g}, {:.4g}) m", text, x[0], x[1], x[2]);
+}
+
+std::string text_of(const ResponsePoint& point)
+{
+  const Eigen::Vector3d& x = point.position;
+  return fmt::format("{} at ({:.4g}, {:.4g}, {:.4g}) m", point.name, x[0], x[1], x[2]);
+}
+
+[[noreturn]] void refuse_strangers(const Measurement& measurement,
+                                   const FrequencyResponses& computed)
+{
+  const MeasuredFunctions& measured = *measurement.functions;
+  const MeasuredFunction& one = measured.functions.front();
+  std::string advice = "say of each load and output its `measured_node`";
+  if (!measured.nodes.empty())
+    advice += measurement.distance ? ", or give a larger --distance" : ", or give --distance";
+  throw Error(fmt::format(
+      "{}: none of its {} frequency responses is between an output and a load of [response]. The "
+      "first is of {} for a load at {}; the scene has the output {} and the load {}. Are the units "
+      "of length and the axes those of the model? Otherwise {}",
+      measured.file, measured.functions.size(), text_of(measured, one.output),
+      text_of(measured, one.load), text_of(computed.outputs.front()),
+      text_of(computed.loads.front()), advice));
+}
+
+/// Factors that make a measured quantity the computed one, at each frequency.
+Eigen::VectorXcd rates(const MeasuredFunction& one, const FrequencyResponses& computed)
+{
+  Eigen::VectorXcd rate = Eigen::VectorXcd::Ones(computed.Omega.size());
+  const ResponseQuantity measured = one.quantity.value_or(computed.quantity);
+  if (measured == computed.quantity) return rate;
+  if (computed.Omega[0] == 0.0) {
+    throw ResponseOptionError("from_Hz",
+                              fmt::format("must be above 0: at rest the measured {} tells no {}",
+                                          name_of(measured), name_of(computed.quantity)));
+  }
+  for (Eigen::Index f = 0; f < rate.size(); ++f) {
+    rate[f] = rate_factor(computed.quantity, computed.Omega[f]) /
+              rate_factor(measured, computed.Omega[f]);
+  }
+  return rate;
+}
+
+}  // namespace
+
+MeasuredResponses measured_beside(const Measurement& measurement,
+                                  const FrequencyResponses& computed)
+{
+  const MeasuredFunctions& measured = *measurement.functions;
+  MeasuredResponses beside{.file = measured.file};
+  MeasuredPoints loads(measurement, computed.loads), outputs(measurement, computed.outputs);
+  for (const MeasuredFunction& one : measured.functions) {
+    const auto load = loads.of(one.load), output = outputs.of(one.output);
+    if (!load || !output) continue;
+    beside.functions.push_back({.name = one.name,
+                                .line = static_cast<std::int64_t>(one.line),
+                                .load = *load,
+                                .output = static_cast<Eigen::Index>(*output),
+                                .H = rates(one, computed).cwiseProduct(one.H)});
+  }
+  if (beside.functions.empty()) refuse_strangers(measurement, computed);
+  return beside;
+}
+
+double response_assurance(const Eigen::VectorXcd& x, const Eigen::VectorXcd& y)
+{
+  // Each over its norm, so that no square leaves the range of numbers.
+  const double size = x.stableNorm() * y.stableNorm();
+  if (!(size > 0.0)) return 0.0;
+  return std::norm(x.stableNormalized().dot(y.stableNormalized()));
+}
+
+double amplitude_ratio(const Eigen::VectorXcd& x, const Eigen::VectorXcd& y)
+{
+  return y.stableNorm() / x.stableNorm();
 }
 
 }  // namespace chladni::mbs_export

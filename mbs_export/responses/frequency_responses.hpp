@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <complex>
 #include <cstdint>
 #include <optional>
@@ -8,10 +9,39 @@
 #include <vector>
 
 #include "mbs_export/modal_body.hpp"
-#include "mbs_export/responses/response_dofs.hpp"
+#include "mbs_export/reduced_system.hpp"
 #include "mbs_export/responses/response_options.hpp"
 
 namespace chladni::mbs_export {
+
+/// A unit load that some nodes share equally, or the motion of one node.
+struct ResponseDof {
+  std::string name;  ///< "tip.z", or "track.z (node 17)" of a set of several nodes
+  std::string key;   ///< key of the scene's table [response] that asks for it, "loads[1].dofs"
+  int component;     ///< 0 to 5
+  std::vector<int> nodes;                          ///< places in NamedNodes::nodes
+  std::optional<std::int64_t> measured_node = {};  ///< number of the node in a measurement
+};
+
+/// The attachment nodes and sets of a model.
+struct NamedNodes {
+  const std::vector<AttachmentNode>& nodes;
+  const std::vector<AttachmentSet>& sets;
+};
+
+/// One load for each component of each place. The nodes of its set share the unit equally, or the
+/// node nearest to `near` bears it alone.
+/// @throws ResponseOptionError for an unknown or empty set, two nodes equally near, a load that is
+///         named twice, and a moment about a drilling axis.
+std::vector<ResponseDof> response_loads(const NamedNodes& model,
+                                        const std::vector<ResponsePlace>& places);
+
+/// One output for each node and component.
+/// @throws ResponseOptionError for an unknown or empty set, two nodes equally near, and an output
+///         that is named twice, and one measured node for several nodes. Drilling rotations are
+///         allowed.
+std::vector<ResponseDof> response_outputs(const NamedNodes& model,
+                                          const std::vector<ResponsePlace>& places);
 
 /// The place of a load or an output.
 struct ResponsePoint {
@@ -91,5 +121,24 @@ std::string name_of(ResponseQuantity quantity);
 ///         not move, an unknown group of section forces, and a frequency at which an undamped mode
 ///         is in resonance: |k - Omega^2 m| < 1e-9 (k + Omega^2 m); and as measured_beside.
 FrequencyResponses frequency_responses(const ModalBody& body, const ResponseOptions& options);
+
+/// The measured functions between an output and a load of the computed responses, in the quantity
+/// of these. A measured node belongs to the place that names it as its `measured_node`, or else to
+/// the nearest place within the distance; directions have to agree.
+/// @param computed  with quantity, frequencies (those of the measurement), loads and outputs
+/// @throws chladni::Error naming the file if no function is between an output and a load, if two
+///         measured nodes belong to one place, and if a measured node has axes of its own.
+/// @throws ResponseOptionError for 0 Hz where the measured quantity is another than the computed
+/// one.
+MeasuredResponses measured_beside(const Measurement& measurement,
+                                  const FrequencyResponses& computed);
+
+/// Frequency response assurance criterion: |x^H y|^2 / (x^H x y^H y), 1 for functions that differ
+/// by a factor, 0 if one of them is zero. Source: Allemang, Sound and Vibration 37 (2003) no.
+/// 8, 14.
+double response_assurance(const Eigen::VectorXcd& x, const Eigen::VectorXcd& y);
+
+/// sqrt(y^H y / x^H x): how large y is beside x.
+double amplitude_ratio(const Eigen::VectorXcd& x, const Eigen::VectorXcd& y);
 
 }  // namespace chladni::mbs_export

@@ -6,6 +6,7 @@
 #include "mesh/decks/deck.hpp"
 
 /// Input files of Abaqus, and of CalculiX where both agree.
+
 namespace chladni::mesh {
 
 /// Node and element sets by name, in capitals.

@@ -10,7 +10,7 @@
 
 #include "common/error.hpp"
 #include "mesh/decks/abaqus_keywords.hpp"
-#include "mesh/vectors.hpp"
+#include "mesh/mesh.hpp"
 
 namespace chladni::mesh {
 namespace {

@@ -10,6 +10,7 @@
 #include "mesh/decks/nastran_cards.hpp"
 
 /// Bulk data of Nastran: NX, MSC, MYSTRAN and programs that write for them.
+
 namespace chladni::mesh {
 
 /// Reads nodes, elements, groups and couplings. The groups are `pshell_1`, `pbar_2`, `pbeam_3` for

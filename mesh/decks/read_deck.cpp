@@ -6,9 +6,9 @@
 #include <system_error>
 
 #include "common/error.hpp"
-#include "mesh/check_msh.hpp"
 #include "mesh/decks/abaqus.hpp"
 #include "mesh/decks/nastran.hpp"
+#include "mesh/gmsh_text.hpp"
 
 namespace chladni::mesh {
 namespace {

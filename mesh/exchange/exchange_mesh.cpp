@@ -9,9 +9,14 @@
 #include <tuple>
 
 #include "common/error.hpp"
-#include "mesh/element_parts.hpp"
+#include "mesh/element_types.hpp"
+#include "mesh/exchange/med.hpp"
+#include "mesh/exchange/unv.hpp"
+#include "mesh/exchange/vtu.hpp"
+#include "mesh/gmsh_text.hpp"
 
 namespace chladni::mesh {
+
 namespace {
 
 bool contains(const std::vector<std::string>& names, const std::string& name)
@@ -259,6 +264,20 @@ Deck deck_of(ExchangeMesh mesh, const MeshOptions& options)
 Mesh mesh_of(ExchangeMesh mesh, const MeshOptions& options)
 {
   return mesh_of(deck_of(std::move(mesh), options), options);
+}
+
+Mesh exchange_mesh(const MeshOptions& options)
+{
+  const std::string& file = *options.file;
+  try {
+    const std::string bytes = read_all(file);
+    const MeshSource source = mesh_source(file).value();
+    if (source == MeshSource::med) return mesh_of(med_mesh(bytes), options);
+    if (source == MeshSource::vtu) return mesh_of(vtu_mesh(bytes), options);
+    return mesh_of(unv_mesh(bytes, options.length_unit), options);
+  } catch (const Error& error) {
+    throw Error(fmt::format("mesh file {}: {}", file, error.what()));
+  }
 }
 
 }  // namespace chladni::mesh

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh/decks/deck.hpp"
+#include "mesh/mesh.hpp"
 #include "mesh/mesh_options.hpp"
 
 namespace chladni::mesh {
@@ -54,5 +55,9 @@ Deck deck_of(ExchangeMesh mesh, const MeshOptions& options);
 /// Makes the mesh by its deck.
 /// @throws chladni::Error as `deck_of` and the `mesh_of` of a deck.
 Mesh mesh_of(ExchangeMesh mesh, const MeshOptions& options);
+
+/// Reads the mesh of a .unv, .med or .vtu in its own unit, in this process.
+/// @throws chladni::Error naming the file and its part that is wrong or unknown.
+Mesh exchange_mesh(const MeshOptions& options);
 
 }  // namespace chladni::mesh

@@ -1,21 +1,131 @@
 // The datasets are those of I-deas as the Structural Dynamics Research Laboratory of the University
 // of Cincinnati describes them; descriptors of elements are I-deas's "FE descriptor id".
+
 #include "mesh/exchange/unv.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
+#include <string_view>
 #include <unordered_map>
 
 #include "common/error.hpp"
-#include "mesh/exchange/unv_words.hpp"
+#include "mesh/decks/deck_text.hpp"
 
 namespace chladni::mesh {
+
 namespace {
+
+/// Reads the numbers of a dataset one by one, across lines. All functions throw chladni::Error
+/// naming line and dataset.
+class UnvWords {
+ public:
+  /// @param dataset  must outlive this object
+  explicit UnvWords(const UnvDataset& dataset) : dataset_(dataset) {}
+
+  bool at_end();
+  /// The next whole line, trimmed.
+  std::string line();
+  /// @param what  name of the number, for errors
+  std::int64_t integer(const char* what);
+  /// An integer of at least 1.
+  std::int64_t number(const char* what);
+  double real(const char* what);
+  [[noreturn]] void refuse(std::string_view why) const;
+
+ private:
+  void next_line();
+  void skip_blanks();
+  std::string_view next(const char* what);
+
+  const UnvDataset& dataset_;
+  std::size_t line_ = 0, column_ = 0;
+};
+
+bool UnvWords::at_end()
+{
+  skip_blanks();
+  return line_ == dataset_.lines.size();
+}
+
+std::string UnvWords::line()
+{
+  if (column_ > 0) next_line();
+  if (line_ == dataset_.lines.size()) refuse("ends in the midst of a record");
+  const std::string found = trimmed(dataset_.lines[line_]);
+  next_line();
+  return found;
+}
+
+std::int64_t UnvWords::integer(const char* what)
+{
+  const std::string_view word = next(what);
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  constexpr std::int64_t greatest = 2'147'483'647;
+  if (error == std::errc() && end == word.data() + word.size() && std::abs(value) <= greatest)
+    return value;
+  refuse(fmt::format("\"{}\" is no {}, which is a whole number", word, what));
+}
+
+std::int64_t UnvWords::number(const char* what)
+{
+  const std::int64_t value = integer(what);
+  if (value < 1) refuse(fmt::format("{} is no {}; those go from 1", value, what));
+  return value;
+}
+
+double UnvWords::real(const char* what)
+{
+  const std::string_view word = next(what);
+  std::string text(word);
+  for (char& c : text) c = c == 'D' || c == 'd' ? 'E' : c;
+  if (text.starts_with('+')) text.erase(0, 1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size() && std::isfinite(value))
+    return value;
+  refuse(fmt::format("\"{}\" is no number, which {} is", word, what));
+}
+
+void UnvWords::refuse(std::string_view why) const
+{
+  const auto line = std::min(line_ + 1, dataset_.lines.size());
+  throw Error(fmt::format("line {}: dataset {}: {}", dataset_.line + static_cast<int>(line),
+                          dataset_.number, why));
+}
+
+void UnvWords::next_line()
+{
+  ++line_;
+  column_ = 0;
+}
+
+void UnvWords::skip_blanks()
+{
+  while (line_ < dataset_.lines.size()) {
+    column_ = std::min(dataset_.lines[line_].find_first_not_of(" \t\r", column_),
+                       dataset_.lines[line_].size());
+    if (column_ < dataset_.lines[line_].size()) return;
+    next_line();
+  }
+}
+
+std::string_view UnvWords::next(const char* what)
+{
+  if (at_end()) refuse(fmt::format("ends where {} should stand", what));
+  const std::string_view rest = dataset_.lines[line_].substr(column_);
+  const std::string_view word = rest.substr(0, rest.find_first_of(" \t\r"));
+  column_ += word.size();
+  return word;
+}
 
 struct Descriptor {
   Shape shape;
@@ -228,6 +338,51 @@ class Reader {
 ExchangeMesh unv_mesh(const std::string& text, double length_unit)
 {
   return Reader(length_unit).read(unv_datasets(text));
+}
+
+namespace {
+
+/// Whether a line has nothing but numbers, as those of datasets. Words of people stand between
+/// datasets too.
+bool is_of_numbers(std::string_view words)
+{
+  return words.find_first_not_of("0123456789+-.eEdD \t") == std::string_view::npos &&
+         words.find_first_of("0123456789") != std::string_view::npos;
+}
+
+}  // namespace
+
+std::vector<UnvDataset> unv_datasets(const std::string& text)
+{
+  enum class State { outside, at_number, inside };
+  State state = State::outside;
+  std::vector<UnvDataset> datasets;
+  for_each_line(text, 0, [&](std::string_view line, int number) {
+    const std::string words = trimmed(line);
+    if (state == State::inside) {
+      if (words == "-1")
+        state = State::outside;
+      else
+        datasets.back().lines.push_back(line);
+    } else if (state == State::at_number) {
+      if (words.empty())
+        throw Error(fmt::format("line {}: the number of a dataset is missing", number));
+      datasets.push_back({.number = words, .line = number, .lines = {}});
+      state = State::inside;
+    } else if (words == "-1") {
+      state = State::at_number;
+    } else if (is_of_numbers(words)) {
+      throw Error(
+          fmt::format("line {}: \"{}\" stands where a dataset begins, with -1 in a line of its own",
+                      number, words.substr(0, 40)));
+    }
+    return true;
+  });
+  if (state != State::outside) {
+    const std::string which = datasets.empty() ? "" : " " + datasets.back().number;
+    throw Error(fmt::format("the file is cut off: its last dataset{} does not end with -1", which));
+  }
+  return datasets;
 }
 
 }  // namespace chladni::mesh

@@ -1,4 +1,4 @@
-#include "mesh/gmsh/files.hpp"
+#include "mesh/gmsh/gmsh.hpp"
 
 #include <fmt/format.h>
 #include <gmsh.h>
@@ -6,12 +6,20 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
+#include <map>
+#include <numbers>
+#include <string_view>
 
 #include "common/error.hpp"
-#include "mesh/check_msh.hpp"
-#include "mesh/geo_code.hpp"
+#include "confinement/sandbox.hpp"
+#include "mesh/decks/read_deck.hpp"
+#include "mesh/gmsh_text.hpp"
+#include "mesh/mesh_archive.hpp"
+#include "mesh/own_readers.hpp"
 
 namespace chladni::mesh {
 
@@ -154,6 +162,359 @@ std::vector<std::string> open_geo(const MeshOptions& options)
     gmsh::open(file);
   }
   return replace_algorithm_8(code);
+}
+
+namespace {
+
+MeshSource source_of(const std::string& file)
+{
+  if (!std::filesystem::is_regular_file(file)) {
+    throw Error(
+        fmt::format("mesh file {} does not exist; give the path of a {}", file, extensions_of()));
+  }
+  if (const auto source = mesh_source(file)) return *source;
+  throw Error(fmt::format("mesh file {}: its name must end with {}", file, extensions_of()));
+}
+
+/// Gmsh runs the code of NAME.opt before it is done with NAME.
+void check_no_options_beside(const std::string& file)
+{
+  const std::string options = file + ".opt";
+  if (!std::filesystem::exists(std::filesystem::symlink_status(options))) return;
+  throw Error(
+      fmt::format("mesh file {}: beside it is the option file {}, which Gmsh would obey; move that "
+                  "away, or, if both files are your own, say --trust-mesh",
+                  file, options));
+}
+
+/// What Gmsh complains of while it lives, which it tells nobody else.
+class Complaints {
+ public:
+  Complaints() { gmsh::logger::start(); }
+  ~Complaints() { gmsh::logger::stop(); }
+  Complaints(const Complaints&) = delete;
+  Complaints& operator=(const Complaints&) = delete;
+
+  /// @throws chladni::Error with the first error, which has file and line.
+  void refuse_errors() const
+  {
+    constexpr std::string_view error = "Error: ";
+    std::vector<std::string> lines;
+    gmsh::logger::get(lines);
+    for (const std::string& line : lines)
+      if (line.starts_with(error)) throw Error("Gmsh: " + line.substr(error.size()));
+  }
+};
+
+/// Opens the file in Gmsh, with its groups.
+/// @return notes for the user
+std::vector<std::string> open(const MeshOptions& options, MeshSource source)
+{
+  if (options.trust != Trust::owner) check_no_options_beside(*options.file);
+  if (source == MeshSource::msh) check_msh_is_whole(*options.file);
+  if (source == MeshSource::step) return open_step(options);
+  std::vector<std::string> notes;
+  if (source == MeshSource::geo) {
+    const Complaints complaints;
+    notes = open_geo(options);
+    complaints.refuse_errors();
+  }
+  if (source == MeshSource::msh) gmsh::open(*options.file);
+  add_entity_groups(options);
+  return notes;
+}
+
+}  // namespace
+
+Mesh read_file(const MeshOptions& options, const std::function<void()>& before_reading)
+{
+  const MeshSource source = source_of(*options.file);
+  if (has_own_reader(*options.file)) {
+    before_reading();
+    return read_here(options);
+  }
+  const int order = source == MeshSource::msh ? 0 : options.element_order.value_or(3);
+  const double unit = source == MeshSource::step ? 1e-3 : options.length_unit;
+  std::vector<std::string> notes;
+  const auto build = [&] {
+    before_reading();
+    notes = open(options, source);
+    set_local_sizes(options, unit);
+  };
+  Mesh mesh = mesh_with_gmsh(build, order, options);
+  mesh.notes.insert(mesh.notes.begin(), notes.begin(), notes.end());
+  scale(mesh, unit);
+  return mesh;
+}
+
+namespace {
+
+namespace occ = gmsh::model::occ;
+
+constexpr double mm = 1e-3;  // m
+
+std::vector<Entity> entities_of(int dimension)
+{
+  std::vector<Entity> entities;
+  gmsh::model::getEntities(entities, dimension);
+  return entities;
+}
+
+void check_shells(const std::string& file)
+{
+  if (const auto solids = entities_of(3); !solids.empty()) {
+    throw Error(
+        fmt::format("mesh file {} holds {} solids; Chladni meshes shells: export the "
+                    "mid-surfaces as surfaces (shell or faces)",
+                    file, solids.size()));
+  }
+  if (entities_of(2).empty()) throw Error(fmt::format("mesh file {} has no surface", file));
+}
+
+/// Arcs between the nodes of a ring.
+std::vector<Entity> add_ring_arcs(const RingOptions& ring)
+{
+  std::vector<Entity> arcs;
+  for (int i = 0; i < ring.nodes; ++i) {
+    const double step = 2.0 * std::numbers::pi / ring.nodes;
+    arcs.emplace_back(1, occ::addCircle(0.0, 0.0, ring.z.value_or(0.0) / mm, ring.radius / mm, -1,
+                                        i * step, (i + 1) * step));
+  }
+  return arcs;
+}
+
+/// Makes all surfaces meet in common curves, with the rings' arcs among them.
+/// @return what became of each surface and curve of the file
+std::map<Entity, std::vector<Entity>> join(const std::vector<RingOptions>& rings)
+{
+  std::vector<Entity> objects = entities_of(2);
+  const std::vector<Entity> curves = entities_of(1);
+  objects.insert(objects.end(), curves.begin(), curves.end());
+  std::vector<Entity> tools;
+  for (const RingOptions& ring : rings) {
+    const std::vector<Entity> arcs = add_ring_arcs(ring);
+    tools.insert(tools.end(), arcs.begin(), arcs.end());
+  }
+  std::vector<Entity> all;
+  std::vector<std::vector<Entity>> parts;
+  occ::fragment(objects, tools, all, parts);
+  occ::synchronize();
+  std::map<Entity, std::vector<Entity>> became;
+  for (std::size_t i = 0; i < objects.size(); ++i) became[objects[i]] = parts[i];
+  return became;
+}
+
+/// Across the box of the body, from corner to corner, m.
+double size_of_body()
+{
+  std::array<double, 3> low{}, high{};
+  gmsh::model::getBoundingBox(-1, -1, low[0], low[1], low[2], high[0], high[1], high[2]);
+  return mm * std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
+void set_sizes(double element_size)
+{
+  constexpr double most_across = 1e4;
+  const double least = size_of_body() / most_across;
+  if (element_size < least) {
+    throw Error(fmt::format(
+        "mesh.element_size = {} m is too small for a body of {:.3g} m; take {:.1g} m or more",
+        element_size, most_across * least, least));
+  }
+  gmsh::option::setNumber("Mesh.MeshSizeMax", element_size / mm);
+  gmsh::option::setNumber("Mesh.MeshSizeMin", 0.02 * element_size / mm);
+  // A cubic edge of 90 degrees folds its element over.
+  gmsh::option::setNumber("Mesh.MinimumElementsPerTwoPi", 12);
+  gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 1);
+}
+
+/// Groups of the file's entities, as what became of them; one for each surface and curve that is
+/// left, unless groups of surfaces or curves are given.
+void add_groups(const MeshOptions& options, const std::vector<std::vector<Entity>>& of_groups,
+                const std::map<Entity, std::vector<Entity>>& became)
+{
+  std::array<bool, 3> given{};
+  for (std::size_t i = 0; i < options.groups.size(); ++i) {
+    std::vector<Entity> parts;
+    for (const Entity& entity : of_groups[i]) {
+      const auto& p = became.at(entity);
+      parts.insert(parts.end(), p.begin(), p.end());
+    }
+    if (parts.empty()) continue;
+    given.at(parts.front().first) = true;
+    add_entity_group(options.groups[i], parts);
+  }
+  for (const auto& [entity, parts] : became) {
+    if (given.at(entity.first) || parts.empty()) continue;
+    add_entity_group({.name = entity_name(entity), .entities = {}}, parts);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> open_step(const MeshOptions& options)
+{
+  gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
+  gmsh::model::add("step");
+  std::vector<Entity> imported;
+  occ::importShapes(*options.file, imported, false, "step");
+  occ::synchronize();
+  check_shells(*options.file);
+  std::vector<std::vector<Entity>> of_groups;
+  for (const EntityGroup& group : options.groups) of_groups.push_back(find_entities(group));
+  add_groups(options, of_groups, join(options.rings));
+  if (options.element_size) set_sizes(*options.element_size);
+  return {};
+}
+
+namespace {
+
+constexpr std::array<const char*, 3> prefixes{"point_", "curve_", "surface_"};
+
+std::string label_of(const Entity& entity)
+{
+  std::string label;
+  gmsh::model::getEntityName(entity.first, entity.second, label);
+  return label;
+}
+
+/// "Shapes/part/face" is found by its last part too.
+bool has_label(const Entity& entity, const std::string& name)
+{
+  const std::string label = label_of(entity);
+  return label == name || label.ends_with("/" + name);
+}
+
+std::string list(const std::vector<Entity>& entities)
+{
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(entities.size(), 20); ++i) {
+    const std::string label = label_of(entities[i]);
+    text += fmt::format("{}{}{}", i == 0 ? "" : ", ", entity_name(entities[i]),
+                        label.empty() ? "" : fmt::format(" ({})", label));
+  }
+  return text + (entities.size() > 20 ? ", ..." : "");
+}
+
+void check_ungrouped(const EntityGroup& group, const Entity& entity)
+{
+  if (entity.first != 2) return;
+  std::vector<int> tags;
+  gmsh::model::getPhysicalGroupsForEntity(entity.first, entity.second, tags);
+  if (tags.empty()) return;
+  std::string name;
+  gmsh::model::getPhysicalName(entity.first, tags.front(), name);
+  throw Error(fmt::format("group \"{}\": {} belongs to the group \"{}\" already", group.name,
+                          entity_name(entity), name.empty() ? std::to_string(tags.front()) : name));
+}
+
+/// A .msh may list entities of which it holds no element.
+bool is_without_elements(const Entity& entity)
+{
+  std::vector<int> types;
+  gmsh::model::mesh::getElementTypes(types, entity.first, entity.second);
+  return types.empty();
+}
+
+bool is_meshed()
+{
+  std::vector<int> types;
+  gmsh::model::mesh::getElementTypes(types);
+  return !types.empty();
+}
+
+void add_group_of_each(int dimension)
+{
+  std::vector<Entity> groups;
+  gmsh::model::getPhysicalGroups(groups, dimension);
+  if (!groups.empty()) return;
+  std::vector<Entity> entities;
+  gmsh::model::getEntities(entities, dimension);
+  if (is_meshed()) std::erase_if(entities, is_without_elements);
+  for (const Entity& e : entities) add_physical_group(dimension, {e.second}, entity_name(e));
+}
+
+}  // namespace
+
+std::string entity_name(const Entity& entity)
+{
+  return prefixes.at(entity.first) + std::to_string(entity.second);
+}
+
+std::vector<Entity> find_entities(const EntityGroup& group)
+{
+  std::vector<Entity> all;
+  gmsh::model::getEntities(all);
+  std::erase_if(all, [](const Entity& e) { return e.first > 2; });
+  std::vector<Entity> found;
+  for (const std::string& name : group.entities) {
+    const std::size_t before = found.size();
+    for (const Entity& entity : all)
+      if (entity_name(entity) == name || has_label(entity, name)) found.push_back(entity);
+    if (found.size() > before) continue;
+    std::ranges::reverse(all);  // surfaces first
+    throw Error(fmt::format("group \"{}\": there is no entity \"{}\"; there are: {}", group.name,
+                            name, list(all)));
+  }
+  const auto other = [&](const Entity& e) { return e.first != found.front().first; };
+  if (std::ranges::any_of(found, other))
+    throw Error(fmt::format("group \"{}\" mixes points, curves and surfaces", group.name));
+  return found;
+}
+
+void add_entity_group(const EntityGroup& group, const std::vector<Entity>& entities)
+{
+  std::vector<int> tags;
+  for (const Entity& entity : entities) {
+    check_ungrouped(group, entity);
+    tags.push_back(entity.second);
+  }
+  std::ranges::sort(tags);
+  tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
+  add_physical_group(entities.front().first, tags, group.name);
+}
+
+void add_groups_of_each_entity()
+{
+  add_group_of_each(2);
+  add_group_of_each(1);
+}
+
+void add_entity_groups(const MeshOptions& options)
+{
+  for (const EntityGroup& group : options.groups) add_entity_group(group, find_entities(group));
+  add_groups_of_each_entity();
+}
+
+namespace {
+
+Mesh made(const MeshOptions& options, const std::function<void()>& before_reading)
+{
+  if (options.file) return read_file(options, before_reading);
+  if (options.annulus) return unstructured_annulus(*options.annulus);
+  if (options.hat_disc) return unstructured_hat_disc(*options.hat_disc);
+  if (options.pad) return unstructured_patch(edges_of(*options.pad), patch_of(*options.pad));
+  const RectangleOptions& rectangle = options.rectangle.value();
+  return unstructured_patch(edges_of(rectangle), patch_of(rectangle));
+}
+
+}  // namespace
+
+void answer(const std::string& subject, Unpacker& question, Packer& answer)
+{
+  const std::optional<confinement::Limits> limits = unpack_limits(question);
+  MeshOptions options = unpack_options(question);
+  options.trust = limits ? Trust::stranger : Trust::owner;
+  const auto confine = [&] {
+    if (limits) confinement::confine(*limits);
+  };
+  if (subject == "mesh") return pack(answer, made(options, confine));
+  if (subject != "declarations") throw Error(fmt::format("nobody answers for \"{}\"", subject));
+  DeckUnits units{};
+  question(units.length);
+  question(units.force);
+  confine();
+  pack(answer, declarations_here(options, units));
 }
 
 }  // namespace chladni::mesh

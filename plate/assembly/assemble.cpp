@@ -1,18 +1,25 @@
 #include "plate/assembly/assemble.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cassert>
+#include <map>
 
 #include "common/all_ranks.hpp"
 #include "common/checked_count.hpp"
 #include "plate/assembly/block_rows.hpp"
 #include "plate/assembly/element_motion.hpp"
+#include "plate/dofs/couplings.hpp"
+#include "plate/dofs/drilling.hpp"
 #include "plate/dofs/point_elements.hpp"
-#include "plate/sections/directors.hpp"
-#include "plate/sections/section_map.hpp"
+#include "plate/elements/interpolation.hpp"
+#include "plate/sections/sections.hpp"
 
 namespace chladni::plate {
+
+using Eigen::Index, Eigen::Vector3d;
 
 namespace {
 
@@ -96,6 +103,193 @@ System assemble(const mesh::Mesh& mesh, std::span<const ShellSection> sections, 
                 MPI_Comm comm)
 {
   return assemble(mesh, Structure{.shells = sections}, std::move(dofs), comm);
+}
+
+Vector3d centre_of_nodes(const DofMap& dofs)
+{
+  Vector3d sum = Vector3d::Zero();
+  for (int node = 0; node < dofs.n_nodes(); ++node) sum += dofs.position(node);
+  return sum / static_cast<double>(dofs.n_nodes());
+}
+
+petsc::Matrix rigid_motions(const System& system)
+{
+  const DofMap& dofs = system.dofs;
+  assert(!dofs.has_combined_motions());
+  petsc::Matrix R;
+  PetscInt n_local = 0;
+  petsc::check(MatGetLocalSize(system.K, &n_local, nullptr));
+  petsc::check(MatCreateDense(petsc::communicator(system.K), n_local, PETSC_DECIDE, PETSC_DETERMINE,
+                              6, nullptr, R.put()));
+  const Vector3d origin = centre_of_nodes(dofs);
+  const int rank = petsc::rank(petsc::communicator(R));
+  for (int node = 0; node < dofs.n_nodes(); ++node) {
+    const int number = dofs.number(node);
+    if (number < dofs.first_number(rank) || number >= dofs.first_number(rank + 1)) continue;
+    const Matrix6d motion = rigid_arm(dofs.position(node) - origin);
+    for (const int c : dofs.components()) {
+      const int row = *dofs.dof(node, c);
+      for (int k = 0; k < 6; ++k) petsc::check(MatSetValue(R, row, k, motion(c, k), INSERT_VALUES));
+    }
+  }
+  petsc::check(MatAssemblyBegin(R, MAT_FINAL_ASSEMBLY));
+  petsc::check(MatAssemblyEnd(R, MAT_FINAL_ASSEMBLY));
+  return R;
+}
+
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+/// Adds forces on nodes to the rows of f that this rank owns; every rank adds all forces.
+class Forces {
+ public:
+  explicit Forces(const System& system) : dofs_(system.dofs)
+  {
+    petsc::check(MatCreateVecs(system.K, nullptr, f_.put()));
+    petsc::check(VecGetOwnershipRange(f_, &first_, &last_));
+  }
+
+  void add(int node, const Vector6d& force)
+  {
+    for (const MotionTerm& term : dofs_.motion(node)) {
+      const Vector6d share = term.T.transpose() * force;
+      for (const int c : dofs_.components()) {
+        const int dof = *dofs_.dof_of_number(term.number, c);
+        if (dof < first_ || dof >= last_) continue;
+        petsc::check(VecSetValue(f_, dof, share[c], ADD_VALUES));
+      }
+    }
+  }
+  void add_force(int node, const Vector3d& force)
+  {
+    Vector6d all = Vector6d::Zero();
+    all.head<3>() = force;
+    add(node, all);
+  }
+
+  const DofMap& dofs() const { return dofs_; }
+  petsc::Vector assembled()
+  {
+    petsc::check(VecAssemblyBegin(f_));
+    petsc::check(VecAssemblyEnd(f_));
+    return std::move(f_);
+  }
+
+ private:
+  const DofMap& dofs_;
+  petsc::Vector f_;
+  PetscInt first_ = 0, last_ = 0;
+};
+
+Vector3d vector_of(const std::array<double, 3>& x)
+{
+  return {x[0], x[1], x[2]};
+}
+
+/// Positions of nodes, [n x 3].
+Eigen::MatrixX3d positions_of(const mesh::Mesh& mesh, std::span<const int> nodes)
+{
+  Eigen::MatrixX3d x(std::ssize(nodes), 3);
+  for (Index i = 0; i < x.rows(); ++i) x.row(i) = vector_of(mesh.positions[nodes[i]]).transpose();
+  return x;
+}
+
+void add_load(const mesh::Mesh& mesh, const NodalLoad& load, Forces& forces)
+{
+  const std::vector<int> nodes = forces.dofs().named_nodes(mesh, load.group);
+  if (nodes.empty()) throw Error(fmt::format("load on \"{}\": it has no nodes", load.group));
+  Vector6d force;
+  force << vector_of(load.force), vector_of(load.moment);
+  for (const int node : nodes) forces.add(node, force / static_cast<double>(nodes.size()));
+}
+
+/// f_i = int N_i q ds along the edges.
+void add_load(const mesh::Mesh& mesh, const EdgeLoad& load, Forces& forces)
+{
+  const std::map<int, double> shares = edge_shares(mesh, load.group);
+  if (shares.empty()) {
+    throw Error(fmt::format(
+        "line load on \"{}\": no edge of an element has all its nodes in this group", load.group));
+  }
+  for (const auto& [node, share] : shares)
+    forces.add_force(node, share * vector_of(load.line_force));
+}
+
+/// f_i = int N_i p (a_1 x a_2) d xi d eta over one element.
+void add_pressure(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element, double p,
+                  Forces& forces)
+{
+  const Points points = gauss_points(block.shape, block.order + 2);
+  const Basis basis = lagrange_basis(block.shape, block.order, points);
+  const std::span<const int> nodes = block.element_nodes(element);
+  const Eigen::MatrixX3d x = positions_of(mesh, nodes);
+  const Eigen::MatrixX3d a_1 = basis.N_xi * x;
+  const Eigen::MatrixX3d a_2 = basis.N_eta * x;
+  Eigen::MatrixX3d f = Eigen::MatrixX3d::Zero(x.rows(), 3);
+  for (Index q = 0; q < points.size(); ++q) {
+    const Eigen::RowVector3d area = a_1.row(q).cross(a_2.row(q));
+    f += p * points.weight[q] * basis.N.row(q).transpose() * area;
+  }
+  for (Index i = 0; i < f.rows(); ++i) forces.add_force(nodes[i], f.row(i));
+}
+
+void add_load(const mesh::Mesh& mesh, const PressureLoad& load, Forces& forces)
+{
+  const mesh::Group& group = mesh::find_group(mesh, load.group);
+  const auto index = static_cast<int>(&group - mesh.groups.data());
+  int n_elements = 0;
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (block.shape == mesh::Shape::line) continue;
+    for (int e = 0; e < block.n_elements(); ++e) {
+      if (block.group[e] != index) continue;
+      add_pressure(mesh, block, e, load.pressure, forces);
+      ++n_elements;
+    }
+  }
+  if (n_elements == 0)
+    throw Error(fmt::format("pressure on \"{}\": the group has no shell elements", load.group));
+}
+
+/// The acceleration as the motion of every node.
+petsc::Vector translation(const System& system, const std::array<double, 3>& a)
+{
+  petsc::Vector motion;
+  petsc::check(MatCreateVecs(system.M, motion.put(), nullptr));
+  PetscInt first = 0, last = 0;
+  petsc::check(VecGetOwnershipRange(motion, &first, &last));
+  for (int node = 0; node < system.dofs.n_nodes(); ++node) {
+    for (int c = 0; c < 3; ++c) {
+      const auto dof = system.dofs.dof(node, c);
+      if (!dof || *dof < first || *dof >= last) continue;
+      petsc::check(VecSetValue(motion, *dof, a[c], INSERT_VALUES));
+    }
+  }
+  petsc::check(VecAssemblyBegin(motion));
+  petsc::check(VecAssemblyEnd(motion));
+  return motion;
+}
+
+}  // namespace
+
+petsc::Vector load_vector(const mesh::Mesh& mesh, const System& system, std::span<const Load> loads)
+{
+  refuse_drilling(mesh, system.dofs, loads);
+  Forces forces(system);
+  for (const Load& load : loads) {
+    if (std::holds_alternative<GravityLoad>(load)) continue;
+    if (const auto* nodal = std::get_if<NodalLoad>(&load)) add_load(mesh, *nodal, forces);
+    if (const auto* edge = std::get_if<EdgeLoad>(&load)) add_load(mesh, *edge, forces);
+    if (const auto* p = std::get_if<PressureLoad>(&load)) add_load(mesh, *p, forces);
+  }
+  petsc::Vector f = forces.assembled();
+  for (const Load& load : loads) {
+    const auto* gravity = std::get_if<GravityLoad>(&load);
+    if (!gravity) continue;
+    const petsc::Vector a = translation(system, gravity->acceleration);
+    petsc::check(MatMultAdd(system.M, a, f, f));
+  }
+  return f;
 }
 
 }  // namespace chladni::plate

@@ -39,4 +39,24 @@ System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs,
 System assemble(const mesh::Mesh& mesh, std::span<const ShellSection> sections, DofMap dofs,
                 MPI_Comm comm);
 
+/// The mean position of all nodes, m. The rotations of `rigid_motions` turn about axes through it.
+Eigen::Vector3d centre_of_nodes(const DofMap& dofs);
+
+/// Unit translations along x, y, z and unit rotations about axes through the centre of the nodes,
+/// as motions of the DOFs. Components that the nodes do not have are left out.
+/// @param system  without averages and harmonics of rings, whose DOFs are no displacements of nodes
+/// @return [n x 6] dense
+/// @note   Collective.
+petsc::Matrix rigid_motions(const System& system);
+
+/// The work-equivalent forces f of the loads in K u = f. A load on a dependent node acts on the
+/// nodes that it follows. Pressure and edge loads act on the surface and the edges of the mesh
+/// itself, without the offsets of sections.
+/// @return distributed as the rows of K; N, N m
+/// @note   Collective on the communicator of `system.K`.
+/// @throws chladni::Error for an unknown group, or one without nodes, edges or elements to load,
+///         and for a moment about a drilling axis (drilling.hpp).
+petsc::Vector load_vector(const mesh::Mesh& mesh, const System& system,
+                          std::span<const Load> loads);
+
 }  // namespace chladni::plate

@@ -1,7 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -76,5 +80,91 @@ class BlockRows {
   /// All n^2 values of each block, or its stored components.
   std::vector<double> values_;
 };
+
+/// Some numbers of each node in the columns of a pattern, which ranks have for their rows.
+class NodeValues {
+ public:
+  /// @param own  [n n_rows] n numbers of each node of this rank
+  /// @note   Collective on `comm`.
+  NodeValues(const BlockPattern& pattern, std::vector<double> own, MPI_Comm comm);
+
+  /// [n] those of a node in the columns of the pattern.
+  const double* of(PetscInt node) const;
+
+ private:
+  PetscInt n_, first_;
+  std::vector<double> own_, other_;
+  std::vector<PetscInt> other_nodes_;  ///< ascending
+};
+
+/// Entries of a block of n x n: bit n * i + j stands for entry (i, j).
+using BlockEntries = std::uint64_t;
+
+/// Adds entries so that rows of a node with much the same columns have the same. Some entries of K
+/// vanish by the symmetry of an element; few as they are, without them most rows have columns of
+/// their own, and sparse products and symbolic factorisation take each row by itself. Rows are
+/// alike that share more than half of the columns of the longer one, not those of bending and of
+/// motion in the plane, which may have a few entries in common that are hardly more than round-off.
+/// Between two sets of them all entries are added where a block has more than half. A node where
+/// that would add more than a twentieth keeps the rows that it has.
+/// @param entries  [n_blocks] of the blocks of the pattern; symmetric over all ranks
+/// @param room     entries that can be added to any block; symmetric, the same on all ranks
+/// @note   Collective on `comm`.
+void make_rows_alike(const BlockPattern& pattern, std::vector<BlockEntries>& entries,
+                     BlockEntries room, MPI_Comm comm);
+
+/// Rows in CSR form, split into the entries in the columns of this rank, counted from its first
+/// column, and the entries in other columns.
+struct SplitRows {
+  std::vector<PetscInt> start{0};
+  std::unique_ptr<PetscInt[]> column;
+  std::vector<double> value;
+  std::vector<PetscInt> other_start{0}, other_column;
+  std::vector<double> other_value;
+};
+
+/// Where the sums over a pattern are stored.
+struct HeldBlocks {
+  const BlockPattern& pattern;
+  const std::vector<int>& held;  ///< n * i + j of the components that partly stored blocks have
+  const std::vector<std::ptrdiff_t>& offset;  ///< [n_blocks + 1] start of each block
+};
+
+/// sqrt |A_ii| of the rows of this rank.
+std::vector<double> diagonal_scales(const HeldBlocks& blocks, const std::vector<double>& values);
+
+/// Decides which values are entries: those above `negligible` times the scale sqrt |A_ii A_jj| of
+/// their place. No entry of a positive semidefinite matrix is larger, and the errors of a Cholesky
+/// factorisation are a few eps of it.
+/// Source: Higham, Accuracy and Stability of Numerical Algorithms (2002), theorem 10.3.
+struct Sieve {
+  double negligible;
+  const NodeValues* scales;  ///< sqrt |A_ii|; null: all but zeros are entries
+
+  /// [n] sqrt |A_ii| of the DOFs of a node; zeros without scales.
+  const double* of(PetscInt node) const
+  {
+    static constexpr std::array<double, 6> zeros{};
+    return scales ? scales->of(node) : zeros.data();
+  }
+  /// True if the value is an entry. The result is symmetric to the last bit; NaN is an entry.
+  bool counts(double value, double row_scale, double column_scale) const
+  {
+    return !(std::abs(value) <= negligible * (row_scale * column_scale));
+  }
+};
+
+/// Which values of each block are entries: what the sieve lets pass, and the diagonal. The others
+/// become zero.
+/// @return [n_blocks]
+std::vector<BlockEntries> sifted(const HeldBlocks& blocks, const Sieve& sieve,
+                                 std::vector<double>& values);
+
+/// Turns the sums over a pattern into rows of scalars. The values stay in the memory of the sums,
+/// since the rows of a node are never longer than its blocks.
+/// @param entries  [n_blocks] of each block; where a partly stored one has no value, there is none
+/// @throws chladni::Error when there are more entries than a PetscInt counts.
+SplitRows split_rows(const HeldBlocks& blocks, std::vector<double> values,
+                     const std::vector<BlockEntries>& entries);
 
 }  // namespace chladni::plate

@@ -8,7 +8,7 @@
 #include "plate/assembly/block_rows.hpp"
 #include "plate/dofs/dof_map.hpp"
 #include "plate/dofs/point_elements.hpp"
-#include "plate/elements/covariant_strains.hpp"
+#include "plate/elements/shell_strains.hpp"
 
 /// The motion of elements as a function of the active DOFs, used by the assembly of every matrix.
 namespace chladni::plate {

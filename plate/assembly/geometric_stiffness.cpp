@@ -4,10 +4,10 @@
 #include <array>
 
 #include "plate/assembly/element_motion.hpp"
-#include "plate/assembly/element_points.hpp"
+#include "plate/assembly/inertia_integrals.hpp"
 #include "plate/assembly/recovery.hpp"
 #include "plate/elements/geometric_stiffness.hpp"
-#include "plate/sections/directors.hpp"
+#include "plate/sections/sections.hpp"
 
 namespace chladni::plate {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <span>
 #include <utility>
 #include <vector>
@@ -9,7 +10,8 @@
 #include "mesh/mesh.hpp"
 #include "plate/assembly/block_rows.hpp"
 #include "plate/dofs/dof_map.hpp"
-#include "plate/sections/section_map.hpp"
+#include "plate/elements/mass_points.hpp"
+#include "plate/sections/sections.hpp"
 
 namespace chladni::plate {
 
@@ -70,5 +72,22 @@ struct InertiaIntegrals {
 /// Computes both.
 /// @note   Collective on the communicator of the model.
 InertiaIntegrals inertia_integrals(const MassModel& model, std::span<const Axes> axes);
+
+/// Mass points of an element, and the places where it has its DOFs.
+struct PlacedPoints {
+  MassPoints points;
+  NodeVectors arms;  ///< [n x 3] m, from the nodes of the mesh to the DOFs; empty for zero
+};
+
+/// The mass points of an element of the model's mesh.
+PlacedPoints element_points(const MassModel& model, const mesh::ElementBlock& block, int element);
+
+/// Number of columns of MassMoments::displacement.
+constexpr Eigen::Index n_moments = 12;
+
+/// The contribution of an element to MassMoments::displacement: sums of (1, x) u_l dm over its
+/// points.
+/// @return [6 n_nodes x 12]
+Eigen::MatrixXd element_moments(const MassPoints& points);
 
 }  // namespace chladni::plate

@@ -1,12 +1,19 @@
 #include "plate/dofs/dof_map.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
 
 #include "common/error.hpp"
 
 namespace chladni::plate {
+
+using Eigen::Index, Eigen::Matrix3d, Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;
 
 namespace {
 
@@ -53,6 +60,213 @@ DofMap make_dof_map(const mesh::Mesh& mesh, const Kinematics& kinematics,
   NodeMotions averaged = average_motions(mesh, couplings, std::move(numbered));
   check_components(kinematics);
   return {with_ring_harmonics(mesh, std::move(averaged), kinematics.rings), kinematics.components};
+}
+
+namespace {
+
+constexpr double placement = 1e-6;  // of angles in rad, of lengths relative to the radius
+
+/// The nodes of a circle by their angle, and the directions of the circle.
+struct Circle {
+  std::vector<int> nodes;
+  VectorXd angles;  ///< rad
+  Matrix3d axes;    ///< columns: phi = 0, phi = 90 degrees, axis
+};
+
+/// The vector itself, or the coordinate axis that it is to round-off.
+Vector3d without_round_off(const Vector3d& v)
+{
+  for (int k = 0; k < 3; ++k)
+    if ((v - Vector3d::Unit(k)).norm() < 1e-8) return Vector3d::Unit(k);
+  return v;
+}
+
+/// From the plane that fits the nodes best.
+Matrix3d axes_of(const Eigen::Matrix3Xd& arms)
+{
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> plane(arms * arms.transpose());
+  Vector3d axis = plane.eigenvectors().col(0);
+  Index largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  if (axis[largest] < 0.0) axis = -axis;
+  axis = without_round_off(axis);
+  const Vector3d from = std::abs(axis.x()) < 0.9 ? Vector3d::UnitX() : Vector3d::UnitY();
+  const Vector3d e_1 = (from - axis.dot(from) * axis).normalized();
+  Matrix3d axes;
+  axes << e_1, axis.cross(e_1), axis;
+  return axes;
+}
+
+/// Refuses what is not equally spaced on a circle.
+void check_circle(const CoupledNodes& nodes, const Circle& circle, const Eigen::Matrix3Xd& arms,
+                  const std::string& ring)
+{
+  const Index n = circle.angles.size();
+  const double radius = arms.colwise().norm().mean();
+  const double step = 2.0 * std::numbers::pi / static_cast<double>(n);
+  for (Index i = 0; i < n; ++i) {
+    const Vector3d local = circle.axes.transpose() * arms.col(i);
+    const double angle = circle.angles[0] + static_cast<double>(i) * step;
+    if (std::abs(local.head<2>().norm() - radius) > placement * radius ||
+        std::abs(local.z()) > placement * radius ||
+        std::abs(circle.angles[i] - angle) > placement) {
+      const Vector3d x = nodes.position(circle.nodes[static_cast<std::size_t>(i)]);
+      throw Error(
+          fmt::format("ring \"{}\": its {} nodes are not equally spaced on a circle, as harmonics "
+                      "need them; the one at ({:.6g}, {:.6g}, {:.6g}) is off its place. Take the "
+                      "ring out of interface.rings, or make it by mesh.rings",
+                      ring, n, x[0], x[1], x[2]));
+    }
+  }
+}
+
+Circle circle_of(const CoupledNodes& nodes, const std::vector<int>& group, const std::string& ring)
+{
+  const Index n = std::ssize(group);
+  if (n < 3) throw Error(fmt::format("ring \"{}\": {} nodes make no ring; take three", ring, n));
+  Eigen::Matrix3Xd arms(3, n);
+  for (Index i = 0; i < n; ++i) arms.col(i) = nodes.position(group[std::size_t(i)]);
+  arms.colwise() -= arms.rowwise().mean().eval();
+  const Matrix3d axes = axes_of(arms);
+  std::vector<std::pair<double, Index>> order;
+  for (Index i = 0; i < n; ++i) {
+    const Vector3d local = axes.transpose() * arms.col(i);
+    double angle = std::atan2(local.y(), local.x());
+    if (std::abs(angle) < placement * placement) angle = 0.0;
+    order.emplace_back(angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle, i);
+  }
+  std::ranges::sort(order);
+  Circle circle{.nodes = {}, .angles = VectorXd(n), .axes = axes};
+  Eigen::Matrix3Xd sorted(3, n);
+  for (Index i = 0; i < n; ++i) {
+    const auto [angle, k] = order[static_cast<std::size_t>(i)];
+    circle.nodes.push_back(group[static_cast<std::size_t>(k)]);
+    circle.angles[i] = angle;
+    sorted.col(i) = arms.col(k);
+  }
+  check_circle(nodes, circle, sorted, ring);
+  return circle;
+}
+
+/// F: column 0 is 1, columns 2 n - 1 and 2 n are cos(n phi) and sin(n phi), all of length 1.
+/// Counted from the first node, so that the highest harmonic of an even ring has its cosine there.
+MatrixXd harmonics(const VectorXd& angles)
+{
+  const Index n = angles.size();
+  MatrixXd F(n, n);
+  for (Index k = 0; k < n; ++k) {
+    const Harmonic harmonic = harmonic_of(static_cast<int>(k));
+    const double start = 2 * harmonic.order == n ? angles[0] : 0.0;
+    for (Index i = 0; i < n; ++i) {
+      const double phase = harmonic.order * (angles[i] - start);
+      F(i, k) = harmonic.is_sine ? std::sin(phase) : std::cos(phase);
+    }
+    F.col(k).normalize();
+  }
+  return (F.array().abs() < 1e-14).select(0.0, F);
+}
+
+/// diag(E, E) with E = (e_r, e_t, e_a) at an angle.
+Matrix6d directions(const Matrix3d& axes, double angle)
+{
+  Matrix3d turn = Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  Matrix6d E = Matrix6d::Zero();
+  E.topLeftCorner<3, 3>() = E.bottomRightCorner<3, 3>() = axes * turn;
+  return (E.array().abs() < 1e-14).select(0.0, E);
+}
+
+/// Active numbers that averages combine.
+std::set<int> averaged_numbers(const NodeMotions& motions)
+{
+  std::set<int> numbers;
+  for (const auto& [node, motion] : motions.combined)
+    for (const MotionTerm& term : motion.terms) numbers.insert(term.number);
+  return numbers;
+}
+
+/// Refuses nodes that do not stand on their own DOFs.
+void check_nodes(const NodeMotions& motions, const Circle& circle, const std::string& ring)
+{
+  const std::set<int> averaged = averaged_numbers(motions);
+  for (const int node : circle.nodes) {
+    const bool is_free = motions.is_plain(node) && !averaged.contains(motions.number(node));
+    if (is_free) continue;
+    const std::string& other = motions.followed(node);
+    throw Error(fmt::format(
+        "ring \"{}\": its nodes {}; harmonics need nodes that belong to no coupling and to no "
+        "other ring of harmonics",
+        ring, other.empty() ? "take part in an average" : fmt::format("follow \"{}\"", other)));
+  }
+}
+
+void check_order(const RingHarmonics& wanted, std::size_t n)
+{
+  if (wanted.up_to >= 1 && 2 * wanted.up_to <= static_cast<int>(n)) return;
+  throw Error(fmt::format(
+      "ring \"{}\": harmonics = {}, but {} nodes show the harmonics 1 to {} only; give fewer, or "
+      "more nodes to the ring",
+      wanted.ring, wanted.up_to, n, n / 2));
+}
+
+}  // namespace
+
+RingMotions with_ring_harmonics(const mesh::Mesh& mesh, NodeMotions motions,
+                                std::span<const RingHarmonics> rings)
+{
+  RingMotions with{std::move(motions), {}};
+  for (const RingHarmonics& wanted : rings) {
+    const Circle circle = circle_of(with, with.named_nodes(mesh, wanted.ring), wanted.ring);
+    check_nodes(with, circle, wanted.ring);
+    check_order(wanted, circle.nodes.size());
+    const MatrixXd F = harmonics(circle.angles);
+    HarmonicRing ring{
+        .name = wanted.ring, .up_to = wanted.up_to, .nodes = circle.nodes, .numbers = {}};
+    for (const int node : circle.nodes) ring.numbers.push_back(with.number(node));
+    for (Index i = 0; i < F.rows(); ++i) {
+      const Matrix6d E = directions(circle.axes, circle.angles[i]);
+      CombinedMotion motion{.followed = wanted.ring, .terms = {}, .dof = {-1, -1, -1, -1, -1, -1}};
+      for (Index k = 0; k < F.cols(); ++k)
+        motion.terms.push_back({ring.numbers[static_cast<std::size_t>(k)], F(i, k) * E});
+      with.combined.emplace(circle.nodes[static_cast<std::size_t>(i)], std::move(motion));
+    }
+    with.rings.push_back(std::move(ring));
+  }
+  return with;
+}
+
+namespace {
+
+[[noreturn]] void refuse_dependent(const mesh::Mesh& mesh, const DofMap& dofs,
+                                   const Support& support, int node)
+{
+  const std::string& followed = dofs.followed(node);
+  throw Error(fmt::format("support of \"{}\": node {} follows \"{}\"; support \"{}\" instead",
+                          support.group, mesh.node_numbers[node], followed, followed));
+}
+
+}  // namespace
+
+std::vector<int> held_dofs(const mesh::Mesh& mesh, const DofMap& dofs,
+                           std::span<const Support> supports)
+{
+  std::vector<int> held;
+  for (const Support& support : supports) {
+    const std::vector<int> nodes = dofs.named_nodes(mesh, support.group);
+    if (nodes.empty())
+      throw Error(fmt::format("support of \"{}\": the group has no nodes", support.group));
+    for (const int node : nodes) {
+      for (const int component : support.components) {
+        const auto dof = dofs.dof(node, component);
+        if (!dof && dofs.is_plain(node)) continue;  // the model holds this component
+        if (!dof) refuse_dependent(mesh, dofs, support, node);
+        held.push_back(*dof);
+      }
+    }
+  }
+  std::ranges::sort(held);
+  held.erase(std::unique(held.begin(), held.end()), held.end());
+  return held;
 }
 
 }  // namespace chladni::plate

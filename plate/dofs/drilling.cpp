@@ -9,10 +9,10 @@
 #include <string>
 
 #include "common/error.hpp"
+#include "plate/dofs/dof_map.hpp"
 #include "plate/dofs/free_motions.hpp"
 #include "plate/dofs/point_elements.hpp"
-#include "plate/dofs/supports.hpp"
-#include "plate/sections/directors.hpp"
+#include "plate/sections/sections.hpp"
 
 namespace chladni::plate {
 

@@ -4,7 +4,6 @@
 
 #include "mesh/mesh.hpp"
 #include "plate/dofs/dof_map.hpp"
-#include "plate/load_options.hpp"
 #include "plate/plate_options.hpp"
 
 /// The drilling rotation of a shell, which is that about its normal. Elements resist it by a

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "plate/elements/element_rules.hpp"
+#include "plate/elements/shell_element.hpp"
 #include "plate/elements/shell_resultants.hpp"
 
 namespace chladni::plate {

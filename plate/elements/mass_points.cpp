@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "plate/elements/strain_energy.hpp"
+#include "plate/elements/shell_strains.hpp"
 
 namespace chladni::plate {
 

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "mesh/mesh.hpp"
-#include "plate/elements/beam_fields.hpp"
-#include "plate/elements/covariant_strains.hpp"
+#include "plate/elements/beam_element.hpp"
+#include "plate/elements/shell_strains.hpp"
 #include "plate/plate_options.hpp"
 
 namespace chladni::plate {

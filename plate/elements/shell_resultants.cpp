@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "plate/elements/assumed_strains.hpp"
-#include "plate/elements/rotation_bubbles.hpp"
 #include "plate/elements/shell_element.hpp"
 
 namespace chladni::plate {

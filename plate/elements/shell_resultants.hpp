@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "plate/elements/covariant_strains.hpp"
+#include "plate/elements/shell_strains.hpp"
 #include "plate/plate_options.hpp"
 
 namespace chladni::plate {

@@ -1,19 +1,386 @@
 #include "plate/refinement/refined_mesh.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
-#include "mesh/element_parts.hpp"
-#include "plate/refinement/arc_edges.hpp"
-#include "plate/refinement/edge_cuts.hpp"
+#include "mesh/element_types.hpp"
+#include "mesh/mesh.hpp"
+#include "plate/elements/interpolation.hpp"
 
 namespace chladni::plate {
+
+using Eigen::Index, Eigen::MatrixX3d, Eigen::MatrixXd, Eigen::RowVector2d, Eigen::RowVector3d,
+    Eigen::VectorXd;
+using mesh::ElementBlock, mesh::Mesh, mesh::Shape;
+
 namespace {
 
-using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
-using mesh::ElementBlock, mesh::Mesh, mesh::Shape;
+/// Lattice points of an element with `n` intervals in each direction, in the order of
+/// mesh::ElementBlock.
+class Lattice {
+ public:
+  Lattice(mesh::Shape shape, int n) : shape_(shape), n_(n) {}
+
+  mesh::Shape shape() const { return shape_; }
+  int n() const { return n_; }
+  int size() const;
+  int place(int i, int j) const;
+  /// Number of points in row j.
+  int n_columns(int j) const { return shape_ == mesh::Shape::triangle ? n_ - j + 1 : n_ + 1; }
+  int n_rows() const { return shape_ == mesh::Shape::line ? 1 : n_ + 1; }
+  /// The places along each edge. Edges and their points are in the order of mesh::edges_of.
+  std::vector<std::vector<int>> edges() const;
+
+ private:
+  mesh::Shape shape_;
+  int n_;
+};
+
+/// The places along the edges of an element, 0 to 1, at which it is cut in two, in the order of
+/// mesh::edges_of.
+using Cuts = std::array<double, 4>;
+
+constexpr Cuts in_the_middle{0.5, 0.5, 0.5, 0.5};
+
+/// A part of an element: the lattice place of its first corner, and its direction.
+struct Part {
+  int i, j, sign;
+};
+
+/// A point between the four corners of a part of a quadrilateral.
+RowVector2d between(const std::array<RowVector2d, 4>& corners, double u, double v)
+{
+  return (1.0 - u) * ((1.0 - v) * corners[0] + v * corners[2]) +
+         u * ((1.0 - v) * corners[1] + v * corners[3]);
+}
+
+/// The corners of the 2 x 2 parts of a quadrilateral, xi fastest.
+std::array<std::array<RowVector2d, 3>, 3> corners_of_quarters(const Cuts& cuts)
+{
+  const auto [low, left, right, high] = cuts;
+  // Where the lines between opposite cuts meet.
+  const double r = (low + (high - low) * left) / (1.0 - (high - low) * (right - left));
+  const double s = left + (right - left) * r;
+  return {{{RowVector2d(0.0, 0.0), RowVector2d(low, 0.0), RowVector2d(1.0, 0.0)},
+           {RowVector2d(0.0, left), RowVector2d(r, s), RowVector2d(1.0, right)},
+           {RowVector2d(0.0, 1.0), RowVector2d(high, 1.0), RowVector2d(1.0, 1.0)}}};
+}
+
+RowVector2d in_quarters(int i, int j, int q, const Cuts& cuts)
+{
+  const auto corners = corners_of_quarters(cuts);
+  const int column = i > q ? 1 : 0, row = j > q ? 1 : 0;
+  const auto& below = corners.at(static_cast<std::size_t>(row));
+  const auto& above = corners.at(static_cast<std::size_t>(row) + 1);
+  const auto c = static_cast<std::size_t>(column);
+  return between({below.at(c), below.at(c + 1), above.at(c), above.at(c + 1)},
+                 double(i - column * q) / q, double(j - row * q) / q);
+}
+
+/// Of the four triangles between corners and cuts.
+RowVector2d in_triangles(int i, int j, int q, const Cuts& cuts)
+{
+  const RowVector2d corner(0.0, 0.0), first(1.0, 0.0), second(0.0, 1.0);
+  const RowVector2d on_r(cuts[0], 0.0), on_s(0.0, cuts[1]), across(1.0 - cuts[2], cuts[2]);
+  const auto point = [&](const RowVector2d& from, const RowVector2d& a, const RowVector2d& b, int m,
+                         int n) -> RowVector2d {
+    return from + double(m) / q * (a - from) + double(n) / q * (b - from);
+  };
+  if (i + j <= q) return point(corner, on_r, on_s, i, j);
+  if (i >= q) return point(on_r, first, across, i - q, j);
+  if (j >= q) return point(on_s, across, second, i, j - q);
+  return point(across, on_s, on_r, q - i, q - j);
+}
+
+RowVector2d parameters_of(const Lattice& lattice, int i, int j, int parts, const Cuts& cuts)
+{
+  const int q = lattice.n() / 2;
+  if (parts == 1 || cuts == in_the_middle)
+    return {double(i) / lattice.n(), double(j) / lattice.n()};
+  if (lattice.shape() == Shape::triangle) return in_triangles(i, j, q, cuts);
+  return in_quarters(i, j, q, cuts);
+}
+
+int Lattice::size() const
+{
+  switch (shape_) {
+    case Shape::line:
+      return n_ + 1;
+    case Shape::triangle:
+      return (n_ + 1) * (n_ + 2) / 2;
+    case Shape::quadrilateral:
+      break;
+  }
+  return (n_ + 1) * (n_ + 1);
+}
+
+int Lattice::place(int i, int j) const
+{
+  if (shape_ == Shape::triangle) return j * (n_ + 1) - j * (j - 1) / 2 + i;
+  return j * (n_ + 1) + i;
+}
+
+std::vector<std::vector<int>> Lattice::edges() const
+{
+  const bool is_line = shape_ == Shape::line, is_triangle = shape_ == Shape::triangle;
+  std::vector<std::vector<int>> edges(is_line ? 1 : is_triangle ? 3 : 4);
+  for (int i = 0; i <= n_; ++i) {
+    edges[0].push_back(place(i, 0));
+    if (is_line) continue;
+    edges[1].push_back(place(0, i));
+    edges[2].push_back(is_triangle ? place(n_ - i, i) : place(n_, i));
+    if (!is_triangle) edges[3].push_back(place(i, n_));
+  }
+  return edges;
+}
+
+/// The parameters r and s of lattice points, in [0, 1] along the first two edges. Each part between
+/// the cuts of opposite edges (of the three edges of a triangle) has equidistant points.
+/// @param parts  2, or 1 without cuts
+std::vector<std::array<double, 2>> lattice_parameters(const Lattice& lattice, int parts,
+                                                      const Cuts& cuts)
+{
+  std::vector<std::array<double, 2>> parameters(static_cast<std::size_t>(lattice.size()));
+  for (int j = 0; j < lattice.n_rows(); ++j) {
+    for (int i = 0; i < lattice.n_columns(j); ++i) {
+      const RowVector2d at = parameters_of(lattice, i, j, parts, cuts);
+      parameters[static_cast<std::size_t>(lattice.place(i, j))] = {at[0], at[1]};
+    }
+  }
+  return parameters;
+}
+
+/// All parts of an element that is cut into `parts` in each direction.
+std::vector<Part> parts_of(Shape shape, int parts)
+{
+  std::vector<Part> all;
+  for (int j = 0; j < (shape == Shape::line ? 1 : parts); ++j) {
+    for (int i = 0; i < (shape == Shape::triangle ? parts - j : parts); ++i) {
+      all.push_back({.i = i, .j = j, .sign = 1});
+      // The triangle between three others is turned by half a turn.
+      if (shape == Shape::triangle && i + j + 2 <= parts)
+        all.push_back({.i = i + 1, .j = j + 1, .sign = -1});
+    }
+  }
+  return all;
+}
+
+/// The values of the shape functions of an element at some parameters.
+/// @return [n_points x nodes_per_element]
+Eigen::MatrixXd shapes_at(Shape shape, int order,
+                          const std::vector<std::array<double, 2>>& parameters)
+{
+  const Index n = std::ssize(parameters);
+  Points points{.xi = VectorXd(n), .eta = VectorXd(n), .weight = {}};
+  for (Index k = 0; k < n; ++k) {
+    const auto& [r, s] = parameters[static_cast<std::size_t>(k)];
+    points.xi[k] = shape == Shape::triangle ? r : 2.0 * r - 1.0;
+    points.eta[k] = shape == Shape::triangle ? s : 2.0 * s - 1.0;
+  }
+  if (shape == Shape::line) return lagrange(VectorXd::LinSpaced(order + 1, -1.0, 1.0), points.xi);
+  return lagrange_basis(shape, order, points).N;
+}
+
+/// Finds where element edges are cut: in the middle, or nearer to a free edge of the shell if one
+/// end of the edge lies on it.
+class EdgeCuts {
+ public:
+  /// @param rows  [n_nodes] m, wanted distance of the cut from a free edge at each node; or empty
+  EdgeCuts(const mesh::Mesh& mesh, const std::vector<double>& rows);
+
+  /// The place of the cut, at t in (0, 1) along the edge.
+  /// @param edge  its nodes from end to end
+  double cut(const std::vector<int>& edge) const;
+  /// The cuts of all edges of an element.
+  Cuts cuts(const mesh::ElementBlock& block, int element) const;
+
+ private:
+  const mesh::Mesh& mesh_;
+  const std::vector<double>& rows_;
+  std::vector<char> is_free_;  ///< [n_nodes] true at the ends of edges with one element
+  std::map<std::vector<int>, int> n_elements_;  ///< of each edge, its nodes ascending
+};
+
+std::vector<int> key_of(std::vector<int> edge)
+{
+  std::ranges::sort(edge);
+  return edge;
+}
+
+EdgeCuts::EdgeCuts(const mesh::Mesh& mesh, const std::vector<double>& rows)
+    : mesh_(mesh), rows_(rows), is_free_(mesh.positions.size(), 0)
+{
+  if (rows.empty()) return;
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (block.shape == mesh::Shape::line) continue;
+    for (int e = 0; e < block.n_elements(); ++e)
+      for (const std::vector<int>& edge : mesh::edges_of(block, e)) ++n_elements_[key_of(edge)];
+  }
+  for (const auto& [edge, n] : n_elements_)
+    if (n == 1)
+      for (const int node : edge) is_free_[static_cast<std::size_t>(node)] = 1;
+}
+
+double EdgeCuts::cut(const std::vector<int>& edge) const
+{
+  constexpr double middle = 0.5;
+  constexpr double near_middle = 0.3;  // a half of the element is about as wide as the row
+  if (rows_.empty()) return middle;
+  const auto a = static_cast<std::size_t>(edge.front()), b = static_cast<std::size_t>(edge.back());
+  if (is_free_[a] == is_free_[b]) return middle;
+  const auto& x = mesh_.positions[a];
+  const auto& y = mesh_.positions[b];
+  const double length = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
+  const double share = rows_[is_free_[a] != 0 ? a : b] / length;
+  if (share > near_middle) return middle;
+  return is_free_[a] != 0 ? share : 1.0 - share;
+}
+
+Cuts EdgeCuts::cuts(const mesh::ElementBlock& block, int element) const
+{
+  Cuts cuts = in_the_middle;
+  if (rows_.empty() || block.shape == mesh::Shape::line) return cuts;
+  const std::vector<std::vector<int>> edges = mesh::edges_of(block, element);
+  for (std::size_t k = 0; k < edges.size(); ++k) cuts.at(k) = cut(edges[k]);
+  return cuts;
+}
+
+/// The circular arc on which the nodes of an element edge lie at equal angles, and which the
+/// polynomial edge of order 2 or higher approximates.
+class ArcEdge {
+ public:
+  /// The arc through the nodes of an edge; absent for a straight edge, an edge with two nodes, and
+  /// one whose nodes lie on no circle.
+  /// @param nodes  [p + 1 x 3] from end to end, m
+  static std::optional<ArcEdge> through(const Eigen::MatrixX3d& nodes);
+
+  /// The vector from the polynomial to the arc at t in [0, 1] of the edge, m.
+  Eigen::RowVector3d correction(double t) const;
+
+ private:
+  Eigen::MatrixX3d nodes_;
+  /// centre; radius vector to the start; the one square to it
+  Eigen::RowVector3d centre_, first_, across_;
+  double angle_ = 0.0;  ///< rad, of the whole edge
+};
+
+/// The arcs of the edges of an element, and the displacement of its inside by them: the correction
+/// of each edge decreases linearly to zero at the opposite side or corner.
+class ArcElement {
+ public:
+  ArcElement(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element);
+
+  bool is_straight() const { return edges_.empty(); }
+  /// The displacement of a point of the element, m.
+  /// @param r, s  in [0, 1] along the first two edges of the element, as mesh::ElementBlock
+  Eigen::RowVector3d correction(double r, double s) const;
+
+ private:
+  struct Edge {
+    int number;  ///< as mesh::edges_of
+    ArcEdge arc;
+  };
+  mesh::Shape shape_;
+  std::vector<Edge> edges_;
+};
+
+/// The centre of the circle through three points; nothing where they are in line.
+std::optional<RowVector3d> centre_of(const RowVector3d& a, const RowVector3d& b,
+                                     const RowVector3d& c)
+{
+  constexpr double least_bow = 1e-6;  // of the chord
+  const RowVector3d u = b - a, v = c - a;
+  const RowVector3d normal = u.cross(v);
+  const double square = normal.squaredNorm();
+  if (std::sqrt(square) < least_bow * v.squaredNorm()) return std::nullopt;
+  return a +
+         (u.squaredNorm() * v.cross(normal) - v.squaredNorm() * u.cross(normal)) / (2.0 * square);
+}
+
+/// An edge's parameter, and the distance from it, 1 at what is opposite.
+struct EdgePlace {
+  double t, distance;
+};
+
+EdgePlace place_at(mesh::Shape shape, int edge, double r, double s)
+{
+  if (shape == mesh::Shape::quadrilateral) {
+    const double t = edge == 0 || edge == 3 ? r : s;
+    const double distance = edge == 0 ? s : edge == 1 ? r : edge == 2 ? 1.0 - r : 1.0 - s;
+    return {.t = t, .distance = distance};
+  }
+  // Barycentric coordinates of the ends of the edge.
+  const double l = 1.0 - r - s;
+  const double from = edge == 0 || edge == 1 ? l : r, to = edge == 0 ? r : s;
+  const double sum = from + to;
+  return {.t = sum > 0.0 ? to / sum : 0.0, .distance = 1.0 - sum};
+}
+
+std::optional<ArcEdge> ArcEdge::through(const MatrixX3d& nodes)
+{
+  constexpr double same = 1e-6;  // of the length of the edge
+  const Index n = nodes.rows();
+  if (n < 3) return std::nullopt;
+  const RowVector3d start = nodes.row(0), end = nodes.row(n - 1);
+  const auto centre = centre_of(start, nodes.row(n / 2), end);
+  if (!centre) return std::nullopt;
+  ArcEdge arc;
+  arc.nodes_ = nodes;
+  arc.centre_ = *centre;
+  arc.first_ = start - *centre;
+  const RowVector3d axis = arc.first_.cross(RowVector3d(nodes.row(n / 2) - *centre)).normalized();
+  arc.across_ = axis.cross(arc.first_);
+  const RowVector3d last = end - *centre;
+  arc.angle_ = std::atan2(last.dot(arc.across_), last.dot(arc.first_));
+  if (arc.angle_ <= 0.0) return std::nullopt;  // half a turn and more
+  const double tolerance = same * (end - start).norm();
+  for (Index i = 1; i < n - 1; ++i)
+    if (arc.correction(double(i) / double(n - 1)).norm() > tolerance) return std::nullopt;
+  return arc;
+}
+
+RowVector3d ArcEdge::correction(double t) const
+{
+  const Eigen::VectorXd places = Eigen::VectorXd::LinSpaced(nodes_.rows(), 0.0, 1.0);
+  const RowVector3d on_polynomial = lagrange(places, Eigen::VectorXd::Constant(1, t)) * nodes_;
+  const double angle = t * angle_;
+  return centre_ + std::cos(angle) * first_ + std::sin(angle) * across_ - on_polynomial;
+}
+
+ArcElement::ArcElement(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element)
+    : shape_(block.shape)
+{
+  const std::vector<std::vector<int>> edges = mesh::edges_of(block, element);
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    MatrixX3d nodes(std::ssize(edges[k]), 3);
+    for (Index i = 0; i < nodes.rows(); ++i) {
+      const auto& x =
+          mesh.positions[static_cast<std::size_t>(edges[k][static_cast<std::size_t>(i)])];
+      nodes.row(i) << x[0], x[1], x[2];
+    }
+    if (auto arc = ArcEdge::through(nodes))
+      edges_.push_back({.number = static_cast<int>(k), .arc = std::move(*arc)});
+  }
+}
+
+RowVector3d ArcElement::correction(double r, double s) const
+{
+  RowVector3d moved = RowVector3d::Zero();
+  for (const Edge& edge : edges_) {
+    const EdgePlace place = place_at(shape_, edge.number, r, s);
+    if (place.distance < 1.0) moved += (1.0 - place.distance) * edge.arc.correction(place.t);
+  }
+  return moved;
+}
+
 using Parameters = std::vector<std::array<double, 2>>;
 
 constexpr int highest_order(Shape shape)

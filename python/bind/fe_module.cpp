@@ -11,12 +11,11 @@
 #include "cases/reduce_scene.hpp"
 #include "cases/scene_body.hpp"
 #include "common/petsc.hpp"
-#include "files/output_lock.hpp"
-#include "linear/read_solver_options.hpp"
-#include "mbs_export/files/body_file.hpp"
-#include "mbs_export/files/reduced_file.hpp"
+#include "files/output_file.hpp"
+#include "linear/solver_options.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "python/bind/interruptible.hpp"
-#include "report/output.hpp"
+#include "report/text_table.hpp"
 #include "scene/scene.hpp"
 
 namespace chladni::python {

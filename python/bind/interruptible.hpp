@@ -4,9 +4,11 @@
 
 #include <exception>
 #include <string>
+#include <string_view>
 #include <utility>
 
 /// Long computations of the libraries inside Python.
+
 namespace chladni::python {
 
 /// Reports the progress of a computation to a Python function and checks for Ctrl-C. An exception
@@ -61,5 +63,14 @@ class Progress {
   pybind11::object listener_;
   std::exception_ptr raised_;
 };
+
+/// The text as a Python str; bytes that are not UTF-8, as in damaged files, become U+FFFD.
+inline pybind11::str text_of(std::string_view text)
+{
+  PyObject* const decoded =
+      PyUnicode_DecodeUTF8(text.data(), pybind11::ssize_t(text.size()), "replace");
+  if (decoded == nullptr) throw pybind11::error_already_set();
+  return pybind11::reinterpret_steal<pybind11::str>(decoded);
+}
 
 }  // namespace chladni::python

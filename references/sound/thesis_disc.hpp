@@ -1,8 +1,8 @@
 #pragma once
 
 #include "mbs_export/modal_body.hpp"
-#include "sound/body_surface.hpp"
-#include "sound/wave.hpp"
+#include "sound/air_plan.hpp"
+#include "sound/exterior.hpp"
 
 /// The mode with three nodal diameters of the disc of Steinbrecher 2015, chapter 5, as a Kirchhoff
 /// plate clamped at its hub, in closed form.

@@ -7,9 +7,9 @@
 
 #include "mbs_export/modal_body.hpp"
 #include "squeal/brake/disc.hpp"
-#include "squeal/brake/state_matrix.hpp"
+#include "squeal/brake/linear_contact.hpp"
+#include "squeal/brake_options.hpp"
 #include "squeal/models/flexible_disc.hpp"
-#include "squeal/squeal_options.hpp"
 
 namespace chladni::squeal::test {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "report/output.hpp"
+#include "report/text_table.hpp"
 
 namespace chladni::report {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "report/page/numbers.hpp"
+#include "report/page/page.hpp"
 
 namespace chladni::report {
 namespace {

@@ -2,8 +2,8 @@
 #include <string_view>
 
 #include "scene/keys.hpp"
-#include "squeal/analysis_options.hpp"
 #include "squeal/parameter_options.hpp"
+#include "squeal/study_options.hpp"
 
 namespace chladni::scene {
 namespace {

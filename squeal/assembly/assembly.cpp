@@ -11,10 +11,8 @@
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "squeal/assembly/face.hpp"
-#include "squeal/assembly/face_forces.hpp"
 #include "squeal/assembly/joints.hpp"
 #include "squeal/brake/disc.hpp"
-#include "squeal/brake/mode_parts.hpp"
 
 namespace chladni::squeal {
 namespace {

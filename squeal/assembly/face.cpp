@@ -4,14 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <functional>
 #include <numbers>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "common/error.hpp"
-#include "squeal/assembly/node_areas.hpp"
-#include "squeal/assembly/part_components.hpp"
+#include "squeal/assembly/joints.hpp"
+#include "squeal/brake/contact.hpp"
+#include "squeal/brake/point_pair.hpp"
+#include "squeal/numerics.hpp"
 
 namespace chladni::squeal {
+
 namespace {
 
 /// A face lies on the disc when its nodes do to this part of its height, and within the rings when
@@ -216,6 +223,166 @@ Eigen::MatrixX3d face_motion(const Part& part, const FaceNode& node)
   polar.col(1) = c * motion.row(1) - s * motion.row(0);
   polar.col(2) = motion.row(2);
   return polar;
+}
+
+namespace {
+
+using Point = Eigen::Vector2d;
+using Polygon = std::vector<Point>;
+
+double cross(const Point& a, const Point& b)
+{
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+/// One chain of the hull of points in ascending order, without its last point.
+template <class Points>
+Polygon chain_of(const Points& points)
+{
+  Polygon chain;
+  for (const Point& p : points) {
+    while (chain.size() > 1 &&
+           cross(chain.back() - chain[chain.size() - 2], p - chain.back()) <= 0.0)
+      chain.pop_back();
+    chain.push_back(p);
+  }
+  chain.pop_back();
+  return chain;
+}
+
+/// The convex hull, counterclockwise.
+/// Source: Andrew, Information Processing Letters 9 (1979) 216.
+Polygon hull_of(Polygon points)
+{
+  std::ranges::sort(points, [](const Point& a, const Point& b) {
+    return a[0] != b[0] ? a[0] < b[0] : a[1] < b[1];
+  });
+  Polygon hull = chain_of(points);
+  std::ranges::reverse(points);
+  const Polygon back = chain_of(points);
+  hull.insert(hull.end(), back.begin(), back.end());
+  return hull;
+}
+
+/// The part of a convex polygon that is nearer to `own` than to `other`.
+Polygon nearer(const Polygon& polygon, const Point& own, const Point& other)
+{
+  const Point middle = 0.5 * (own + other), away = other - own;
+  Polygon part;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double d_a = away.dot(a - middle), d_b = away.dot(b - middle);
+    if (d_a <= 0.0) part.push_back(a);
+    if ((d_a < 0.0 && d_b > 0.0) || (d_a > 0.0 && d_b < 0.0))
+      part.push_back(a + d_a / (d_a - d_b) * (b - a));
+  }
+  return part;
+}
+
+double area_of(const Polygon& polygon)
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    sum += 0.5 * cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  return sum;
+}
+
+/// The integral of x over a polygon.
+double moment_of(const Polygon& polygon)
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    sum += (a[0] + b[0]) * cross(a, b) / 6.0;
+  }
+  return sum;
+}
+
+/// Nodes in a plane, in which a polygon has some area.
+struct Plane {
+  Polygon points, hull;
+  std::function<double(const Polygon&)> area;
+
+  double whole() const { return area(hull); }
+};
+
+Plane plane_of(Polygon points, std::function<double(const Polygon&)> area)
+{
+  Polygon hull = hull_of(points);
+  return {std::move(points), std::move(hull), std::move(area)};
+}
+
+/// What of the hull is nearer to each point than to the others.
+Eigen::VectorXd cells(const Plane& plane)
+{
+  Eigen::VectorXd areas(std::ssize(plane.points));
+  for (std::size_t i = 0; i < plane.points.size(); ++i) {
+    Polygon cell = plane.hull;
+    for (std::size_t j = 0; j < plane.points.size() && !cell.empty(); ++j)
+      if (j != i) cell = nearer(cell, plane.points[i], plane.points[j]);
+    areas[static_cast<Eigen::Index>(i)] = plane.area(cell);
+  }
+  return areas;
+}
+
+}  // namespace
+
+Eigen::VectorXd node_areas(const Eigen::VectorXd& radii, const Eigen::VectorXd& angles)
+{
+  const double R = radii.mean();
+  Polygon polar, straight;
+  for (Eigen::Index i = 0; i < radii.size(); ++i) {
+    polar.emplace_back(radii[i], R * angles[i]);
+    straight.emplace_back(radii[i] * std::cos(angles[i]), radii[i] * std::sin(angles[i]));
+  }
+  if (polar.size() < 3) return Eigen::VectorXd::Zero(radii.size());
+  // The integral of r dr dtheta.
+  const Plane of_sector =
+      plane_of(std::move(polar), [R](const Polygon& p) { return moment_of(p) / R; });
+  const Plane of_plate = plane_of(std::move(straight), area_of);
+  const Plane& taken = of_plate.whole() < of_sector.whole() ? of_plate : of_sector;
+  // On a line rounding alone leaves some area.
+  if (!(taken.whole() > 1e-9 * R * R)) return Eigen::VectorXd::Zero(radii.size());
+  return cells(taken);
+}
+
+namespace {
+
+constexpr int pad_rows = 3;  // (r, t, z)
+
+/// What is more than at rest, on the disc and on the pad.
+template <class Scalar>
+Eigen::VectorX<Scalar> forces_at(const PadContact& pad, double sigma,
+                                 const Eigen::VectorX<Scalar>& motion_and_rates, double speed)
+{
+  const Eigen::Index rows = motion_and_rates.size() / 2, n = rows - pad_rows;
+  const PairVector<Scalar> g = motion_and_rates.head(rows), g_dot = motion_and_rates.tail(rows);
+  RingMotion<Scalar> m = ring_motion(g, g_dot, 0);
+  PlateMotion<Scalar>& plate = sigma > 0.0 ? m.upper : m.lower;
+  plate = {g[n + 2], g_dot[n], g_dot[n + 1], g_dot[n + 2]};
+  if (n == face_rows) {
+    move_in_plane<Scalar>(m, plate, g.template segment<2>(middle_rows),
+                          g_dot.template segment<2>(middle_rows));
+  }
+  const PadState<double> at_rest = pad_state(pad, RingMotion<double>{}, speed, sigma);
+  const PadState<Scalar> state = pad_state(pad, m, speed, sigma);
+  Eigen::VectorX<Scalar> F(rows);
+  F.head(n) = face_forces(face_of(pad, sigma), m, state, at_rest, sigma).head(n);
+  F.tail(pad_rows) << -state.f_r, at_rest.f_t - state.f_t, sigma * (state.S - at_rest.S);
+  return F;
+}
+
+}  // namespace
+
+FaceDerivatives face_derivatives(const PadContact& pad, double sigma, int rows, double speed)
+{
+  require_in_table(pad, speed);
+  const Eigen::MatrixXd D = derivative_at_rest(
+      [&](const Eigen::VectorXcd& y) -> Eigen::VectorXcd {
+        return forces_at<std::complex<double>>(pad, sigma, y, speed);
+      },
+      Eigen::Index{2} * rows);
+  return {D.leftCols(rows), D.rightCols(rows)};
 }
 
 }  // namespace chladni::squeal

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <array>
 #include <vector>
 
-#include "squeal/assembly/part.hpp"
+#include "squeal/assembly/joints.hpp"
 #include "squeal/brake/contact.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 
@@ -50,5 +51,28 @@ Eigen::MatrixXd disc_shapes(const InertialDisc& disc, const FaceNode& node);
 
 /// Motion (r, t, z) of the part's face at a node for each mode of the part, [n x 3].
 Eigen::MatrixX3d face_motion(const Part& part, const FaceNode& node);
+
+/// Area of a face around the z axis that belongs to each node: the part of the outline that is
+/// nearer to this node than to any other. The outline is the convex hull of the nodes in (x, y),
+/// which is exact for a straight plate, or in (r, R theta) with the mean radius R, which is exact
+/// for a sector of a ring; the smaller hull is taken, and distances are measured in its plane. A
+/// grid of circles and radii gets the areas of the trapezoidal rule.
+/// @param radii   [n] m
+/// @param angles  [n] rad, less than half a turn apart
+/// @return [n] m^2; zeros when all nodes lie on one line or circle
+Eigen::VectorXd node_areas(const Eigen::VectorXd& radii, const Eigen::VectorXd& angles);
+
+/// Derivatives of the contact force at a point by its motion and its rates about the sliding
+/// equilibrium.
+struct FaceDerivatives {
+  Eigen::MatrixXd by_motion;  ///< [rows x rows]
+  Eigen::MatrixXd by_rate;    ///< [rows x rows]
+};
+
+/// Contact derivatives of a pad above (sigma = 1) or below (sigma = -1) the disc, by complex steps.
+/// Rows are those of the disc, then (r, t, z) of the pad.
+/// @param rows   6 on a middle surface, 8 with in-plane displacements
+/// @param speed  rad/s, > 0
+FaceDerivatives face_derivatives(const PadContact& pad, double sigma, int rows, double speed);
 
 }  // namespace chladni::squeal

@@ -1,8 +1,11 @@
 #include "squeal/assembly/joints.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,13 +13,142 @@
 
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
-#include "linear/dense/orthogonal_factor.hpp"
-#include "squeal/assembly/part_components.hpp"
+#include "linear/dense/dense_solvers.hpp"
+#include "mbs_export/attachment_dofs.hpp"
 
 namespace chladni::squeal {
-namespace {
 
 using Eigen::Vector3d;
+using mbs_export::component_name;
+
+Part placed(const PartOptions& options, const mbs_export::ModalBody& body)
+{
+  using Eigen::AngleAxisd, Eigen::Vector3d;
+  const auto& [a_x, a_y, a_z] = options.rotation;
+  const Eigen::Matrix3d R =
+      (AngleAxisd(a_z, Vector3d::UnitZ()) * AngleAxisd(a_y, Vector3d::UnitY()) *
+       AngleAxisd(a_x, Vector3d::UnitX()))
+          .toRotationMatrix();
+  const Vector3d origin(options.position[0], options.position[1], options.position[2]);
+  const Eigen::Index n = body.n_modes(), n_nodes = std::ssize(body.attachment_nodes);
+  Part part{.name = options.name,
+            .file = options.body,
+            .omega = body.omega,
+            .C = body.C.size() > 0 ? body.C : Eigen::MatrixXd::Zero(n, n),
+            .positions = Eigen::Matrix3Xd(3, n_nodes),
+            .Phi = Eigen::MatrixXd(6 * n_nodes, n),
+            .R = R,
+            .moves = (body.attachment_modes.array() != 0.0).rowwise().any().reshaped(6, n_nodes),
+            .drilling = Eigen::Matrix3Xd(3, n_nodes),
+            .sets = body.sets};
+  for (Eigen::Index i = 0; i < n_nodes; ++i) {
+    const auto& node = body.attachment_nodes[static_cast<std::size_t>(i)];
+    part.positions.col(i) = origin + R * node.position;
+    part.drilling.col(i) = R * node.drilling_axis;
+    for (const Eigen::Index row : {6 * i, 6 * i + 3})
+      part.Phi.middleRows<3>(row) = R * body.attachment_modes.middleRows<3>(row);
+  }
+  return part;
+}
+
+const std::vector<int>& nodes_of(const Part& part, const std::string& set, const std::string& key)
+{
+  const auto found = std::ranges::find(part.sets, set, &mbs_export::AttachmentSet::name);
+  if (found != part.sets.end() && !found->nodes.empty()) return found->nodes;
+  std::vector<std::string> names;
+  for (const auto& other : part.sets) names.push_back(other.name);
+  throw Error(fmt::format("{}: part \"{}\" ({}) has no attachment nodes \"{}\"; it has: \"{}\"",
+                          key, part.name, part.file, set, fmt::join(names, "\", \"")));
+}
+
+Eigen::MatrixXd motion_at(const Part& part, int node, const Eigen::Vector3d& point)
+{
+  Eigen::MatrixXd motion = part.Phi.middleRows<6>(6 * Eigen::Index{node});
+  const Eigen::Vector3d arm = point - part.positions.col(node);
+  // u + theta x arm
+  for (Eigen::Index j = 0; j < motion.cols(); ++j)
+    motion.col(j).head<3>() += motion.col(j).tail<3>().cross(arm).eval();
+  return motion;
+}
+
+namespace {
+
+/// Normals of a mesh of a curved shell, and axes of parts that were turned, are as exact as that.
+constexpr double tilt = 1e-2, mixing = 1e-9;
+
+std::string set_of(const Part& part, const std::string& set)
+{
+  return fmt::format("\"{}.{}\" ({})", part.name, set, part.file);
+}
+
+/// Whether a node moves, but does not turn.
+bool lacks_rotations(const Part& part, int node)
+{
+  const auto moves = part.moves.col(node);
+  return moves.head<3>().any() && !moves.tail<3>().any();
+}
+
+/// A component in the axes of the body, which the whole set lacks or a node of it does.
+bool is_lacking(const Part& part, const std::vector<int>& nodes, Eigen::Index own)
+{
+  const bool none = std::ranges::none_of(nodes, [&](int node) { return part.moves(own, node); });
+  return none ||
+         (own >= 3 && std::ranges::any_of(nodes, [&](int i) { return lacks_rotations(part, i); }));
+}
+
+}  // namespace
+
+Components needed_of_node(const Components& of_point, const Eigen::Vector3d& arm, double tolerance)
+{
+  Components needed = of_point;
+  // u + theta x arm
+  for (std::size_t c = 0; c < 3; ++c)
+    for (const std::size_t other : {(c + 1) % 3, (c + 2) % 3})
+      if (of_point[c] && std::abs(arm[static_cast<Eigen::Index>(3 - c - other)]) > tolerance)
+        needed[3 + other] = true;
+  return needed;
+}
+
+void require_components(const Part& part, const std::string& set, const Components& needed,
+                        const std::string& key, const std::string& remedy)
+{
+  const std::vector<int>& nodes = nodes_of(part, set, key);
+  for (Eigen::Index c = 0; c < 6; ++c)
+    for (Eigen::Index axis = 0; needed[static_cast<std::size_t>(c)] && axis < 3; ++axis) {
+      const Eigen::Index own = c < 3 ? axis : 3 + axis;
+      if (std::abs(part.R(c % 3, axis)) <= mixing || !is_lacking(part, nodes, own)) continue;
+      throw Error(fmt::format(
+          "{}: the modes of {} have no component {} there ({} of the body's own axes is zero in "
+          "modes/attachment_displacements: the body lacks it or holds it); {}",
+          key, set_of(part, set), component_name(int(c)), component_name(int(own)), remedy));
+    }
+}
+
+void refuse_drilling(const Part& part, const std::string& set, const Components& components,
+                     const std::string& key)
+{
+  for (const int node : nodes_of(part, set, key))
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!components[3 + axis]) continue;
+      if (std::abs(part.drilling(static_cast<Eigen::Index>(axis), node)) <= tilt) continue;
+      const char* name = component_name(static_cast<int>(3 + axis));
+      throw Error(fmt::format(
+          "{}: {} of {} turns nodes about the normal of a smooth shell, which elements resist by a "
+          "numerical stiffness alone; take {} out of the joint, or couple a group of nodes rigidly "
+          "([[coupling]], type \"rigid\") in the scene of that body and join the coupling's name",
+          key, name, set_of(part, set), name));
+    }
+}
+
+Eigen::Matrix3Xd axes_without_drilling(const Eigen::Matrix<double, 3, 2>& normals)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spins(normals * normals.transpose());
+  // In ascending order.
+  const Eigen::Index n_free = (spins.eigenvalues().array() <= tilt * tilt).count();
+  return spins.eigenvectors().leftCols(n_free);
+}
+
+namespace {
 
 /// Meshes give places of nodes to this part of the size of a part.
 constexpr double placement = 1e-6;

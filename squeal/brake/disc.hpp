@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <limits>
 #include <optional>
 #include <string>
@@ -8,10 +9,23 @@
 
 #include "mbs_export/modal_body.hpp"
 #include "squeal/brake/disc_ring.hpp"
-#include "squeal/brake/mode_figures.hpp"
-#include "squeal/squeal_options.hpp"
+#include "squeal/brake_options.hpp"
 
 namespace chladni::squeal {
+
+/// Description of a mode from its motion over the whole disc.
+struct ModeFigure {
+  /// Number of nodal circles: sign changes of the axial motion along the radius. Absent when the
+  /// body has no picture, and for modes that are mainly in-plane.
+  std::optional<int> circles = {};
+  /// In-plane fraction of the kinetic energy; absent when the body has no mass integrals.
+  std::optional<double> in_plane = {};
+};
+
+/// Descriptions of all modes of a body.
+/// @param diameters  [n_modes] nodal diameters
+std::vector<ModeFigure> mode_figures(const mbs_export::ModalBody& body,
+                                     const std::vector<int>& diameters);
 
 /// Compliance of the contact rings by modes far above the frequency range of interest, which
 /// respond without inertia. A force at the angle alpha displaces the angle theta by Re sum_d C[d]
@@ -105,5 +119,73 @@ Shapes shapes_at(const Disc& disc, double theta);
 
 /// Number of nodal diameters of each mode: its dominant harmonic along the rings.
 std::vector<int> nodal_diameters(const Disc& disc);
+
+/// The roles of a body's modes in a study.
+struct ModeParts {
+  std::vector<int> dynamic;       ///< 0-based, with stiffness and inertia
+  std::vector<int> quasi_static;  ///< 0-based, with their compliance only
+  std::vector<int> alone = {};    ///< 0-based, of the quasi-static ones those without a partner
+  std::vector<int> still;         ///< 1-based, left out because they do not move the pads
+  /// 1-based, left out because they move the rings with harmonic n / 2 of their n nodes
+  std::vector<int> alternating;
+};
+
+/// Upper end of the frequency range for which a body with interface modes was made, rad/s: the
+/// limit of its tolerance, or its highest other mode. Infinite for bodies without interface modes.
+double range_of(const mbs_export::ModalBody& body);
+
+/// The end of what a reduction knows of its modes, rad/s: the certified frequencies or, of a body
+/// of all modes, half of the highest one; infinite where neither is known.
+double end_of_known(const Disc& disc, const mbs_export::ModalBody& body);
+
+/// Assigns a role to each mode.
+/// @param disc  the disc of `body` with all modes
+/// @throws chladni::Error as make_disc.
+ModeParts mode_parts(const Disc& disc, const mbs_export::ModalBody& body, const ModeChoice& choice);
+
+/// Checks that the nodes of each ring tell the modes of the disc from others. A mode of n nodal
+/// diameters looks on N < 2 n + 1 nodes like one of |n - m N| diameters with another slope along
+/// the ring, by which it is found where the nodes rotate; of N / 2 diameters the ring shows one
+/// mode of a pair, which takes no part (`ModeParts::alternating`). Modes of interfaces and those
+/// beyond the range do not count: they stand for many others.
+/// @param disc  made of `body`
+/// @throws chladni::Error with the mode, and the number of nodes that suffices for all of them.
+void refuse_aliases(const Disc& disc, const mbs_export::ModalBody& body);
+
+/// Harmonics of the modes on the contact rings: row i of `c[d]` has the functions of mode i on each
+/// ring as lengths (`functions_of`), Re(c exp(i d theta)). The harmonic n / 2 of a ring with n
+/// nodes is left out, because its sine is unknown.
+struct RingHarmonics {
+  std::vector<Eigen::MatrixXcd> c;  ///< [d][n_modes x functions of all rings]
+
+  /// [n_modes] sum of squares over all harmonics and functions.
+  Eigen::VectorXd squares() const;
+  /// [n_harmonics x n_modes] sum of squares of each harmonic over all functions.
+  Eigen::MatrixXd squares_by_harmonic() const;
+};
+
+/// The harmonics of the modes on these rings.
+RingHarmonics ring_harmonics(const std::vector<DiscRing>& rings);
+
+/// The skew-symmetric matrix S that rotates modal coordinates as a rotation of the disc does, in
+/// the least-squares sense. If the space of modes is closed under rotation and the disc is
+/// axisymmetric, S c[d] / d = i c[d] on all rings, and S commutes with the stiffness; the second
+/// condition has the weight (omega_i / omega_j - omega_j / omega_i)^2 for each entry. The
+/// eigenvalues of S are then +-i d. The partners of modes are found in any order, even when modes
+/// of close frequencies mix.
+/// @param omega  [n_modes] rad/s
+Eigen::MatrixXd rotation_generator(const RingHarmonics& harmonics, const Eigen::VectorXd& omega);
+
+/// The modal coordinates with d nodal diameters, from the eigenvectors of a generator.
+struct HarmonicSpace {
+  int d;
+  /// [n_modes x m] orthonormal. For d > 0 the columns e have S e = i d e, and their real and
+  /// imaginary parts span 2 m dimensions; for d = 0 they are real.
+  Eigen::MatrixXcd E;
+};
+
+/// The spaces of all d by ascending d, which together are the whole space; eigenvalues of S are
+/// rounded to integers.
+std::vector<HarmonicSpace> harmonic_spaces(const Eigen::MatrixXd& S);
 
 }  // namespace chladni::squeal

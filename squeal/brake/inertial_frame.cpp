@@ -1,11 +1,13 @@
 #include "squeal/brake/inertial_frame.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstddef>
 #include <numbers>
 #include <string>
 #include <variant>
@@ -13,13 +15,55 @@
 #include "common/error.hpp"
 #include "common/told_apart.hpp"
 #include "linear/dense/dense_solvers.hpp"
-#include "squeal/brake/pair_damping.hpp"
-#include "squeal/brake/rotation_generator.hpp"
+#include "squeal/brake/disc.hpp"
 
 namespace chladni::squeal {
-namespace {
 
 using std::numbers::pi;
+
+namespace {
+
+/// Differences within the pairs that the mean over the circumference removes.
+struct DampingDifference {
+  double spread = 0.0;    ///< largest difference of decay rates within a pair, 1/s
+  double contrast = 0.0;  ///< largest difference relative to the pair's mean decay rate
+};
+
+/// Mean over the circumference of exp(-phi D) C exp(phi D) for damping or Coriolis terms, exact
+/// because more than 2 n_max + 1 angles are used.
+/// @param C  [n_modes x n_modes] in the coordinates of the inertial disc
+Eigen::MatrixXd averaged_over_angles(const InertialDisc& inertial, const Eigen::MatrixXd& C)
+{
+  const int n_max = *std::ranges::max_element(inertial.nodal_diameters);
+  const int n_angles = 2 * n_max + 2;
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(C.rows(), C.cols());
+  for (int k = 0; k < n_angles; ++k) {
+    const double angle = 2.0 * pi * k / n_angles;
+    Eigen::MatrixXd turn = C;
+    for (Eigen::Index i = 0; i < C.cols(); ++i) turn.col(i) = turned(inertial, C.col(i), angle);
+    const Eigen::MatrixXd half = turn.transpose();
+    for (Eigen::Index i = 0; i < C.cols(); ++i)
+      mean.row(i) += turned(inertial, half.col(i), angle).transpose() / n_angles;
+  }
+  return mean;
+}
+
+/// Differences within each pair: half the distance of the eigenvalues of its block of C.
+DampingDifference damping_difference(const InertialDisc& inertial, const Eigen::MatrixXd& C)
+{
+  DampingDifference largest;
+  for (Eigen::Index i = 0; i < inertial.n_modes(); ++i) {
+    if (inertial.nodal_diameters[static_cast<std::size_t>(i)] == 0) continue;
+    const double half_difference = 0.5 * (C(i, i) - C(i + 1, i + 1));
+    const double across = 0.5 * (C(i, i + 1) + C(i + 1, i));
+    const double spread = std::hypot(half_difference, across);
+    const double mean = 0.25 * (C(i, i) + C(i + 1, i + 1));
+    largest.spread = std::max(largest.spread, spread);
+    if (mean > 0.0) largest.contrast = std::max(largest.contrast, spread / mean);
+    ++i;
+  }
+  return largest;
+}
 
 struct Complaint {
   std::string text;  ///< why a disc has no inertial frame, in words for the user

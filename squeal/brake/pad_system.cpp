@@ -1,21 +1,23 @@
 #include "squeal/brake/pad_system.hpp"
 
 #include <fmt/format.h>
-
 #include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <cstddef>
+#include <numbers>
+#include <utility>
 
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
-#include "squeal/brake/friction_range.hpp"
-#include "squeal/brake/pad_matrices.hpp"
-#include "squeal/brake/pads.hpp"
-#include "squeal/brake/ring_pairs.hpp"
-#include "squeal/derivative.hpp"
+#include "squeal/brake/contact.hpp"
+#include "squeal/numerics.hpp"
 
 namespace chladni::squeal {
+
 namespace {
 
 /// A point of the face of a pad, in the axes of the pad: (radial, tangential, axial).
@@ -221,6 +223,260 @@ PairDerivatives pair_derivatives(const PadContact& pad, double speed, int rows)
       },
       Eigen::Index{2} * rows);
   return {D.leftCols(rows), D.rightCols(rows)};
+}
+
+// Sums over the contact points of each pad: what is reported of a pad with a grid.
+
+std::vector<ContactResult<double>> by_pad(const PadSystem& pads,
+                                          const std::vector<ContactResult<double>>& points)
+{
+  std::vector<ContactResult<double>> sums;
+  std::vector<int> counts;
+  const auto add = [](PadState<double>& sum, const PadState<double>& x) {
+    sum.z += x.z;
+    sum.z_dot += x.z_dot;
+    sum.N += x.N;
+    sum.slip_speed = std::min(sum.slip_speed, x.slip_speed);
+    sum.S += x.S;
+    sum.f_r += x.f_r;
+    sum.f_t += x.f_t;
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i == 0 || pads.points[i].pad != pads.points[i - 1].pad) {
+      sums.push_back(points[i]);
+      counts.push_back(1);
+      continue;
+    }
+    ++counts.back();
+    add(sums.back().upper, points[i].upper);
+    add(sums.back().lower, points[i].lower);
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    for (PadState<double>* pad : {&sums[i].upper, &sums[i].lower}) {
+      pad->z /= counts[i];
+      pad->z_dot /= counts[i];
+    }
+  return sums;
+}
+
+namespace {
+
+void add_spring(PadMatrices& system, const Suspension& spring, Eigen::Index i, Eigen::Index j)
+{
+  for (const auto& [matrix, value] :
+       {std::pair{&system.K, spring.stiffness}, std::pair{&system.C, spring.damping}}) {
+    (*matrix)(i, i) += value;
+    if (j < 0) continue;
+    (*matrix)(j, j) += value;
+    (*matrix)(i, j) -= value;
+    (*matrix)(j, i) -= value;
+  }
+}
+
+void add_pad(PadMatrices& system, const PadPair& pad, Eigen::Index first)
+{
+  const std::vector<PlateFreedom> all = freedoms(*pad.body, pad.shim);
+  const auto n = static_cast<Eigen::Index>(all.size());
+  const Eigen::Index caliper = first + 2 * n;
+  for (Eigen::Index i = 0; i < 2 * n; ++i) {
+    const PlateFreedom& freedom = all[static_cast<std::size_t>(i % n)];
+    system.M(first + i, first + i) = freedom.inertia;
+    const bool on_caliper = pad.caliper && freedom.direction == 2;
+    add_spring(system, freedom.suspension, first + i, on_caliper ? caliper : -1);
+  }
+  if (!pad.caliper) return;
+  system.M(caliper, caliper) = pad.caliper->mass;
+  add_spring(system, pad.caliper->axial, caliper, -1);
+}
+
+}  // namespace
+
+std::vector<PlateFreedom> freedoms(const PadBody& body, const std::optional<Shim>& shim)
+{
+  std::vector<PlateFreedom> all;
+  const std::array translations{body.radial, body.tangential, body.axial};
+  for (int i = 0; i < 3; ++i)
+    if (const auto& suspension = translations[static_cast<std::size_t>(i)])
+      all.push_back({i, body.mass, i == 2 && shim ? in_series(*suspension, *shim) : *suspension});
+  const std::array rotations{body.about_radial, body.about_tangential, body.about_axial};
+  for (int i = 0; i < 3; ++i)
+    if (const auto& rotation = rotations[static_cast<std::size_t>(i)])
+      all.push_back({3 + i, rotation->inertia, rotation->suspension});
+  return all;
+}
+
+Eigen::Index n_coordinates(const PadPair& pad)
+{
+  if (!pad.body) return 0;
+  return 2 * static_cast<Eigen::Index>(freedoms(*pad.body).size()) + (pad.caliper ? 1 : 0);
+}
+
+PadMatrices pad_matrices(const SquealOptions& options)
+{
+  Eigen::Index n = 0;
+  for (const PadPair& pad : options.pads) n += n_coordinates(pad);
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(n, n);
+  PadMatrices system{zero, zero, zero};
+  Eigen::Index first = 0;
+  for (const PadPair& pad : options.pads) {
+    if (pad.body) add_pad(system, pad, first);
+    first += n_coordinates(pad);
+  }
+  return system;
+}
+
+Eigen::MatrixXd pad_basis(const SquealOptions& options)
+{
+  const PadMatrices matrices = pad_matrices(options);
+  if (matrices.M.size() == 0) return {};
+  // As in pad_system, so that the modes are the same.
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(matrices.K, matrices.M);
+  return matrices.M.diagonal().cwiseSqrt().asDiagonal() * modes.eigenvectors();
+}
+
+std::array<PadFace, 2> faces_of_plate(double thickness, double radius)
+{
+  const double half = 0.5 * thickness;
+  return {PadFace{.radius = radius, .plane = half, .distance = half},
+          PadFace{.radius = radius, .plane = -half, .distance = -half}};
+}
+
+Suspension in_series(const Suspension& spring, const Shim& shim)
+{
+  using Complex = std::complex<double>;
+  const double omega = 2.0 * std::numbers::pi * shim.frequency_Hz;
+  const Complex k(spring.stiffness, omega * spring.damping);
+  const Complex k_s = shim.stiffness * Complex(1.0, shim.loss_factor);
+  const Complex both = k * k_s / (k + k_s);
+  return {.stiffness = both.real(), .damping = both.imag() / omega};
+}
+
+PadContact pad_contact(const SquealOptions& options, const PadPair& pad,
+                       const std::array<PadFace, 2>& faces)
+{
+  Suspension lining{.stiffness = pad.stiffness, .damping = pad.damping};
+  if (pad.shim && !pad.body) lining = in_series(lining, *pad.shim);
+  return {.faces = faces,
+          .friction = pad.friction.value_or(options.friction),
+          .law = options.contact,
+          .spring = {.linear = lining.stiffness, .cubic = pad.cubic_stiffness},
+          .damping = lining.damping,
+          .preload = pad.preload,
+          .area = pad.area.value_or(0.0)};
+}
+
+namespace {
+
+/// Heights of rings are known to this part of their radius.
+constexpr double placement = 1e-6;
+
+/// Heights of the lower and of the upper contact plane, m.
+std::array<double, 2> plane_heights(const SquealOptions& options, double lower, double upper)
+{
+  if (options.planes->heights) return *options.planes->heights;
+  const double middle = 0.5 * (lower + upper), half = 0.5 * options.thickness;
+  return {middle - half, middle + half};
+}
+
+/// @param a, b  indices of the two rings, in any order, or twice the same one
+RingPair pair_of(const SquealOptions& options, const std::vector<RingPlace>& rings, std::size_t a,
+                 std::size_t b)
+{
+  if (!options.planes)
+    return {.rings = {a, b}, .faces = faces_of_plate(options.thickness, rings[a].radius)};
+  if (rings[a].height < rings[b].height) std::swap(a, b);
+  const RingPlace &upper = rings[a], &lower = rings[b];
+  if (a != b && upper.height - lower.height <= placement * upper.radius) {
+    throw Error(
+        fmt::format("[squeal] ring: \"{}\" and \"{}\" both lie at z = {:.6g} m; inboard and "
+                    "outboard need rings "
+                    "at two heights, or one ring for both: ring = \"{}\"",
+                    upper.name, lower.name, upper.height, upper.name));
+  }
+  const auto [bottom, top] = plane_heights(options, lower.height, upper.height);
+  const double half = 0.5 * (top - bottom);
+  return {.rings = {a, b},
+          .faces = {PadFace{upper.radius, half, top - upper.height},
+                    PadFace{lower.radius, -half, bottom - lower.height}}};
+}
+
+std::size_t index_of(const std::vector<RingPlace>& rings, const std::string& name, std::size_t pad)
+{
+  const auto at = std::ranges::find(rings, name, &RingPlace::name);
+  if (at == rings.end()) {
+    throw Error(
+        fmt::format("[squeal] pads[{}].grid.rings: the disc has no ring \"{}\"", pad, name));
+  }
+  return static_cast<std::size_t>(at - rings.begin());
+}
+
+}  // namespace
+
+RingPair study_pair(const SquealOptions& options, const std::vector<RingPlace>& rings)
+{
+  const bool two = options.planes && !options.planes->opposite_ring.empty();
+  return pair_of(options, rings, 0, two ? 1 : 0);
+}
+
+std::vector<RingPair> ring_pairs(const SquealOptions& options, const PadGrid& grid,
+                                 const std::vector<RingPlace>& rings, std::size_t pad)
+{
+  if (grid.rings.empty()) return {study_pair(options, rings)};
+  std::vector<RingPair> pairs;
+  for (std::size_t i = 0; i < grid.rings.size(); ++i) {
+    const std::size_t one = index_of(rings, grid.rings[i], pad);
+    const std::size_t other =
+        grid.opposite_rings.empty() ? one : index_of(rings, grid.opposite_rings[i], pad);
+    pairs.push_back(pair_of(options, rings, one, other));
+  }
+  return pairs;
+}
+
+PointShapes::PointShapes(const Disc& disc) : disc_rings_(disc.rings) {}
+
+std::vector<RingShapes>& PointShapes::with_patch(double patch)
+{
+  const auto known = rings_.find(patch);
+  if (known != rings_.end()) return known->second;
+  std::vector<RingShapes>& shapes = rings_[patch];
+  for (DiscRing ring : disc_rings_) {
+    for (Harmonics* f : {&ring.W, &ring.W_r, &ring.W_t, &ring.V_r, &ring.V_t})
+      for (Eigen::Index d = 0; d < f->cosine.rows(); ++d) {
+        const double mean = mean_over_patch(static_cast<int>(d), patch);
+        f->cosine.row(d) *= mean;
+        f->sine.row(d) *= mean;
+      }
+    shapes.emplace_back(ring);
+  }
+  return shapes;
+}
+
+const Eigen::MatrixXd& PointShapes::at(const PointPair& point, double angle)
+{
+  std::vector<RingShapes>& rings = with_patch(point.patch);
+  const Eigen::MatrixXd& upper = rings[point.rings[0]].at(point.angle - angle);
+  if (upper.cols() == middle_rows) return upper;
+  both_.resize(upper.rows(), 2 * face_rows);
+  both_.leftCols<face_rows>() = upper;
+  both_.rightCols<face_rows>() = rings[point.rings[1]].at(point.angle - angle);
+  return both_;
+}
+
+Eigen::MatrixXd shapes_at(const InertialDisc& disc, const PointPair& point)
+{
+  const auto of_ring = [&](std::size_t ring) {
+    Eigen::MatrixXd shapes = matrix_of(shapes_at(disc, disc.rings[ring], point.angle));
+    for (Eigen::Index i = 0; i < shapes.rows(); ++i) {
+      shapes.row(i) *=
+          mean_over_patch(disc.nodal_diameters[static_cast<std::size_t>(i)], point.patch);
+    }
+    return shapes;
+  };
+  const Eigen::MatrixXd upper = of_ring(point.rings[0]);
+  if (upper.cols() == middle_rows) return upper;
+  Eigen::MatrixXd both(upper.rows(), 2 * face_rows);
+  both << upper, of_ring(point.rings[1]);
+  return both;
 }
 
 }  // namespace chladni::squeal

@@ -1,14 +1,19 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <array>
 #include <complex>
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "squeal/brake/contact.hpp"
+#include "squeal/brake/disc.hpp"
+#include "squeal/brake/disc_ring.hpp"
 #include "squeal/brake/inertial_frame.hpp"
-#include "squeal/brake/pair_rows.hpp"
-#include "squeal/squeal_options.hpp"
+#include "squeal/brake/point_pair.hpp"
+#include "squeal/brake_options.hpp"
 
 namespace chladni::squeal {
 
@@ -103,5 +108,95 @@ PairDerivatives pair_derivatives(const PadContact& pad, double speed, int rows);
 /// States of each pad pair from those of its points: forces are summed and motions averaged.
 std::vector<ContactResult<double>> by_pad(const PadSystem& pads,
                                           const std::vector<ContactResult<double>>& points);
+
+}  // namespace chladni::squeal
+
+/// Plates and calipers on their suspensions, without contact.
+
+namespace chladni::squeal {
+
+/// One degree of freedom of a plate.
+struct PlateFreedom {
+  /// 0, 1, 2: translation (radial, tangential, axial); 3, 4, 5: rotation about these.
+  int direction;
+  double inertia;  ///< kg or kg m^2
+  Suspension suspension;
+};
+
+/// The degrees of freedom of a plate that have a suspension, by ascending direction.
+/// @param shim  damping layer behind the plate
+std::vector<PlateFreedom> freedoms(const PadBody& body, const std::optional<Shim>& shim = {});
+
+/// Mass, damping and stiffness of M u'' + C u' + K u = f for plates and calipers.
+struct PadMatrices {
+  Eigen::MatrixXd M, C, K;
+};
+
+/// Number of coordinates of a pad pair: those of the upper plate, the lower plate and the caliper.
+Eigen::Index n_coordinates(const PadPair& pad);
+
+/// The matrices of all pads in their order; M is diagonal.
+PadMatrices pad_matrices(const SquealOptions& options);
+
+/// Contact places above and below a ring in the middle surface of a plate.
+/// @param thickness  of the plate, m
+/// @param radius     of the ring, m
+std::array<PadFace, 2> faces_of_plate(double thickness, double radius);
+
+/// Contact data of one pad pair of the scene.
+/// @param faces  places of the upper and of the lower pad
+PadContact pad_contact(const SquealOptions& options, const PadPair& pad,
+                       const std::array<PadFace, 2>& faces);
+
+/// The rings under the upper pad and above the lower pad of a pair: two rings, or one twice.
+struct RingPair {
+  std::array<std::size_t, 2> rings;  ///< indices of the disc's rings, upper first
+  std::array<PadFace, 2> faces;
+};
+
+/// The rings of the study, used by pads without a grid and by the centres of plates.
+/// @param rings  rings of the disc, those of the study first
+/// @throws chladni::Error when the two rings lie at the same height.
+RingPair study_pair(const SquealOptions& options, const std::vector<RingPlace>& rings);
+
+/// The ring pairs of a pad's grid.
+/// @param pad  index of the pad, for messages
+/// @throws chladni::Error when the disc does not have a ring, or the two rings of a pair lie at the
+///         same height.
+std::vector<RingPair> ring_pairs(const SquealOptions& options, const PadGrid& grid,
+                                 const std::vector<RingPlace>& rings, std::size_t pad);
+
+/// Modes of plates and calipers in mass-scaled displacements, y = Psi b. Psi diag(omega) Psi^T is
+/// the square root of their stiffness matrix.
+/// @return [n_pad_modes x n_pad_modes] orthogonal
+Eigen::MatrixXd pad_basis(const SquealOptions& options);
+
+/// The state matrix in coordinates that depend smoothly on the pad parameters: (K^(1/2) y, y') in
+/// place of the pad modes, whose signs, and for equal plates whose combinations, are arbitrary. Its
+/// eigenvalues are those of `state_matrix`.
+Eigen::MatrixXd smooth_state_matrix(const InertialDisc& disc, const SquealOptions& options,
+                                    double speed);
+
+/// Mode shapes of a rotating disc at the point pairs of its pads. Those of a patch are means over
+/// it, as if the shapes were the same along the radius.
+class PointShapes {
+ public:
+  explicit PointShapes(const Disc& disc);
+
+  /// Shapes when the disc has rotated by `angle` (rad); valid until the next call.
+  /// @return [n_modes x disc rows of a point pair]
+  const Eigen::MatrixXd& at(const PointPair& point, double angle);
+
+ private:
+  std::vector<RingShapes>& with_patch(double patch);
+
+  std::vector<DiscRing> disc_rings_;
+  std::map<double, std::vector<RingShapes>> rings_;  ///< by the patch
+  Eigen::MatrixXd both_;                             ///< shapes of two rings side by side
+};
+
+/// Mode shapes of the disc in the inertial frame at a point pair.
+/// @return [n_modes x disc rows of a point pair]
+Eigen::MatrixXd shapes_at(const InertialDisc& disc, const PointPair& point);
 
 }  // namespace chladni::squeal

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "common/error.hpp"
-#include "mbs_export/files/provenance.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "squeal/results/file_checks.hpp"
 
 namespace chladni::squeal {

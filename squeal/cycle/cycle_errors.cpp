@@ -1,5 +1,7 @@
 #include "squeal/cycle/cycle_errors.hpp"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,18 +10,52 @@
 #include <optional>
 #include <utility>
 
-#include "squeal/cycle/cycle_of_all_modes.hpp"
+#include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/harmonic_balance.hpp"
-#include "squeal/cycle/pad_amplitudes.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/cycle/periodic_orbit.hpp"
 #include "squeal/models/flexible_disc.hpp"
-#include "squeal/motion/sliding_disc.hpp"
-#include "squeal/stability/errors_by_modes.hpp"
+#include "squeal/motion/disc_motion.hpp"
+#include "squeal/stability/error_budget.hpp"
 
 namespace chladni::squeal {
-namespace {
 
 using std::numbers::pi;
+
+namespace {
+
+/// Where the modes of `few` are among those of `all`: [n_all x n_few] of zeros and ones.
+Eigen::MatrixXd selection(const Disc& few, const Disc& all)
+{
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(all.n_modes(), few.n_modes());
+  for (Eigen::Index j = 0; j < few.n_modes(); ++j) {
+    const auto at =
+        std::ranges::find(all.mode_numbers, few.mode_numbers[static_cast<std::size_t>(j)]);
+    if (at != all.mode_numbers.end()) S(at - all.mode_numbers.begin(), j) = 1.0;
+  }
+  return S;
+}
+
+/// The states of a brake with some modes of a body as states of the same brake with all of them,
+/// where the modes left out do not move.
+/// @param x  [size of `few` x n]
+/// @return [size of `all` x n]
+Eigen::MatrixXd with_all_modes(const FlexibleDisc& few, const FlexibleDisc& all,
+                               const Eigen::MatrixXd& x)
+{
+  const InertialDisc &a = few.inertial(), &b = all.inertial();
+  // q = R a in both, and the columns of R are orthonormal.
+  const Eigen::MatrixXd P = b.R.transpose() * selection(few.disc(), all.disc()) * a.R;
+  const Eigen::Index n_few = a.n_modes(), n_all = b.n_modes(), half = x.rows() / 2,
+                     n_pads = half - n_few, whole = n_all + n_pads;
+  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(2 * whole, x.cols());
+  const Eigen::MatrixXd by_omega = a.omega.cwiseInverse().asDiagonal() * x.topRows(n_few);
+  y.topRows(n_all) = b.omega.asDiagonal() * (P * by_omega);
+  y.middleRows(n_all, n_pads) = x.middleRows(n_few, n_pads);
+  y.middleRows(whole, n_all) = P * x.middleRows(half, n_few);
+  y.bottomRows(n_pads) = x.bottomRows(n_pads);
+  return y;
+}
 
 /// Of the sharper cycle: twice as many as those of the cycle.
 constexpr int n_sharp_samples = 512;

@@ -6,7 +6,7 @@
 
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/periodic_orbit.hpp"
-#include "squeal/motion/sliding_disc.hpp"
+#include "squeal/motion/disc_motion.hpp"
 
 namespace chladni::squeal {
 namespace {

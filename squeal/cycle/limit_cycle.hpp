@@ -1,6 +1,6 @@
 #pragma once
 
-#include "squeal/results/results.hpp"
+#include "squeal/results/squeal_results.hpp"
 
 namespace chladni::squeal {
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <string>
+
 #include "squeal/models/brake.hpp"
-#include "squeal/results/results.hpp"
+#include "squeal/results/limit_cycle_results.hpp"
+#include "squeal/results/squeal_results.hpp"
 #include "squeal/study_options.hpp"
 #include "squeal/transient/transient.hpp"
 
@@ -21,5 +24,14 @@ namespace chladni::squeal {
 ///         point.
 LimitCycleBranch limit_cycle_branch(const Brake& brake, const SpeedRange& range,
                                     const Progress& progress = {});
+
+/// Appends the points and folds of a part that continues the branch.
+void append(LimitCycleBranch& branch, const LimitCycleBranch& part);
+
+/// Joins two parts of a branch. If they have a cycle in common they are the same branch, part of
+/// which the first has missed, and the longer one is returned. Otherwise the second is appended as
+/// a second part.
+/// @param note  note of the branch when the parts have no cycle in common
+LimitCycleBranch joined(LimitCycleBranch first, LimitCycleBranch second, const std::string& note);
 
 }  // namespace chladni::squeal

@@ -1,15 +1,31 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "squeal/assembly/assembly.hpp"
-#include "squeal/models/assembly_numbers.hpp"
+#include "squeal/assembly_options.hpp"
 #include "squeal/models/brake.hpp"
 
 namespace chladni::squeal {
+
+/// A number of the scene of an assembly.
+struct AssemblyNumber {
+  std::string key;   ///< of the scene: "joint[2].stiffness.z", "part[3].position[1]"
+  std::string unit;  ///< of its value
+  double value;
+  double step;  ///< a change of the value that is small but above rounding; 0: a part of the value
+  std::function<void(AssemblyOptions& options, double value)> set;
+};
+
+/// Every number of parts, joints, linings and disc on which small motions depend, but for the keys
+/// of the brake's own friction law, which are parameters of every brake: places and rotations of
+/// parts, stiffness and damping of joints (those that are not zero), height, stiffness, damping,
+/// preload and own friction of linings, thickness or contact planes, points of friction tables.
+std::vector<AssemblyNumber> assembly_numbers(const AssemblyOptions& options);
 
 /// A disc that rotates between other modal bodies, for small motions about the sliding equilibrium.
 /// Copies share the bodies.

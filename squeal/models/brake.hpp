@@ -1,12 +1,19 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "squeal/motion/autonomous_motion.hpp"
+#include "mbs_export/modal_body.hpp"
+#include "squeal/brake/contact.hpp"
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/friction.hpp"
+#include "squeal/model_options.hpp"
+#include "squeal/motion/motion.hpp"
 #include "squeal/study_options.hpp"
 
 namespace chladni::squeal {
@@ -82,5 +89,48 @@ inline StateMatrixAt state_matrix_at(const Brake& brake)
 {
   return [&brake](double speed) { return brake.state_matrix(speed); };
 }
+
+/// A brake without a modal body: a few autonomous differential equations x' = f(x; speed) with the
+/// sliding equilibrium at x = 0.
+class LumpedBrake : public Brake {
+ public:
+  const LumpedBrake* lumped() const override { return this; }
+
+  /// Number of entries of x.
+  virtual Eigen::Index size() const = 0;
+
+  /// The rate f(x; speed).
+  /// @param speed  rad/s
+  virtual Eigen::VectorXd rate(const Eigen::VectorXd& x, double speed) const = 0;
+
+  /// Contact state of the first pad pair at x.
+  virtual ContactResult<double> contact(const Eigen::VectorXd& x, double speed) const = 0;
+
+  /// The state at rest in which the first pads have a given displacement (m).
+  virtual Eigen::VectorXd start(double displacement) const = 0;
+
+  /// Height z of the first upper pad at x = 0, m.
+  virtual double rest_height() const = 0;
+};
+
+/// The points of the table of a friction law, as `friction_points`.
+/// @param key    of the law in the scene: "friction", "pads[2].friction"
+/// @param brake  the brake with another law in place of this one
+std::vector<BrakeNumber> friction_point_numbers(
+    const FrictionLaw& law, const std::string& key,
+    const std::function<std::unique_ptr<Brake>(FrictionLaw)>& brake);
+
+/// The frequency (Hz) of each mode or pair of modes of a disc. With another frequency a mode keeps
+/// its damping in 1/s.
+/// @param disc   must live as long as the numbers
+/// @param brake  the brake with another disc in place of this one
+std::vector<BrakeNumber> disc_frequencies(
+    const InertialDisc& disc, const std::function<std::unique_ptr<Brake>(InertialDisc)>& brake);
+
+/// The brake of a scene whose model has no mesh.
+/// @param bodies  bodies of the parts of an assembly, in their order
+/// @throws chladni::Error as `assembly`.
+std::unique_ptr<Brake> model_brake(const ModelOptions& options,
+                                   std::span<const mbs_export::ModalBody> bodies = {});
 
 }  // namespace chladni::squeal

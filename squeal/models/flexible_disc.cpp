@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "squeal/brake/state_matrix.hpp"
-#include "squeal/models/brake_numbers.hpp"
-#include "squeal/motion/sliding_disc.hpp"
+#include "squeal/brake/linear_contact.hpp"
+#include "squeal/models/brake.hpp"
+#include "squeal/motion/disc_motion.hpp"
 
 namespace chladni::squeal {
 

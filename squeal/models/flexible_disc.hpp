@@ -6,9 +6,9 @@
 
 #include "squeal/brake/disc.hpp"
 #include "squeal/brake/inertial_frame.hpp"
+#include "squeal/brake_options.hpp"
 #include "squeal/models/brake.hpp"
-#include "squeal/models/brake_parameters.hpp"
-#include "squeal/squeal_options.hpp"
+#include "squeal/models/parameters.hpp"
 
 namespace chladni::squeal {
 

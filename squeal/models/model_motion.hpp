@@ -4,9 +4,9 @@
 #include <complex>
 #include <utility>
 
-#include "squeal/brake/contact_branch.hpp"
-#include "squeal/derivative.hpp"
-#include "squeal/motion/autonomous_motion.hpp"
+#include "squeal/brake/switching_contact.hpp"
+#include "squeal/motion/motion.hpp"
+#include "squeal/numerics.hpp"
 
 namespace chladni::squeal {
 

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "common/error.hpp"
-#include "squeal/motion/dop853_dense.hpp"
-#include "squeal/root.hpp"
+#include "squeal/motion/dop853.hpp"
+#include "squeal/numerics.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "common/error.hpp"
-#include "squeal/motion/integrator.hpp"
+#include "squeal/motion/motion.hpp"
 
 namespace chladni::squeal {
 

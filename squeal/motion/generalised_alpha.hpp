@@ -1,7 +1,7 @@
 #pragma once
 
 #include "linear/dense/dense_solvers.hpp"
-#include "squeal/motion/integrator.hpp"
+#include "squeal/motion/motion.hpp"
 
 namespace chladni::squeal {
 

@@ -2,6 +2,14 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "squeal/brake/contact.hpp"
+#include "squeal/motion/state_archive.hpp"
+
 namespace chladni::squeal {
 
 /// A motion y' = f(t, y) that is smooth while each switching function s_i(t, y) keeps its side
@@ -62,5 +70,86 @@ class Motion : public SwitchedMotion {
   /// The derivatives of g at (t, y) on the present sides.
   virtual Tangent tangent(double t, const Eigen::VectorXd& y) = 0;
 };
+
+/// An autonomous motion x' = f(x), with the functions that a search for periodic solutions needs.
+class AutonomousMotion : public SwitchedMotion {
+ public:
+  virtual Eigen::Index size() const = 0;  ///< number of entries of x
+
+  /// Highest angular frequency of the motion, rad/s; it limits the time steps.
+  virtual double omega_highest() const = 0;
+
+  /// Jacobian df/dx on the present sides, [size x size], 1/s.
+  virtual Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) = 0;
+
+  /// Contact state of the first pad pair at x by the full contact law.
+  virtual ContactResult<double> first_contact(const Eigen::VectorXd& x) = 0;
+
+  /// Number of evaluations of all contact forces so far. A derivative counts once for each
+  /// direction, which is six for a disc, according to its cost.
+  std::int64_t n_evaluations() const { return n_evaluations_; }
+
+  /// f(x) with the sides that belong to x.
+  Eigen::VectorXd rate_at(const Eigen::VectorXd& x)
+  {
+    const Eigen::VectorXd f = rate(0.0, x);
+    return take_sides_of_rate() ? rate(0.0, x) : f;
+  }
+
+ protected:
+  std::int64_t n_evaluations_ = 0;
+};
+
+/// The motion as a function of the speed (rad/s).
+using AutonomousMotionAt = std::function<std::unique_ptr<AutonomousMotion>(double speed)>;
+
+/// Step size control of an adaptive integrator.
+struct StepControl {
+  double tolerance;   ///< error of a step relative to |y|
+  double step_max;    ///< s
+  double step_first;  ///< s
+};
+
+/// A zero of a switching function.
+struct SwitchEvent {
+  double t;        ///< s
+  Eigen::Index i;  ///< index of the switching function
+  double side;     ///< its new side: 1 or -1
+
+  void exchange(StateArchive& archive) { archive(t, i, side); }
+};
+
+/// Work of an integration so far.
+struct IntegrationCost {
+  std::int64_t n_steps = 0;
+  std::int64_t n_rejected = 0;
+  std::int64_t n_factorizations = 0;
+  std::int64_t n_events = 0;  ///< number of located changes of sides
+
+  void exchange(StateArchive& archive) { archive(n_steps, n_rejected, n_factorizations, n_events); }
+};
+
+/// An integrator with adaptive steps and dense output.
+class Integrator {
+ public:
+  Integrator() = default;
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+  virtual ~Integrator() = default;
+
+  /// y at a time (s) that is not before the time of the last call; not finite when the motion
+  /// diverges or no step is small enough. Valid until the next call.
+  virtual const Eigen::VectorXd& at(double t) = 0;
+
+  const IntegrationCost& cost() const { return cost_; }
+
+ protected:
+  IntegrationCost cost_;
+};
+
+/// A step below this fraction of the largest step counts as divergence, as does a velocity above
+/// 1000 km/s, when no step would be small enough.
+inline constexpr double step_underflow = 1e-10;
+inline constexpr double state_max = 1e6;
 
 }  // namespace chladni::squeal

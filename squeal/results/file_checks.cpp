@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "mbs_export/files/file_parts.hpp"
+#include "mbs_export/files/body_files.hpp"
 
 namespace chladni::squeal {
 

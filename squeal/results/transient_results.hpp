@@ -1,10 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "files/hdf5.hpp"
 
 namespace chladni::squeal {
 
@@ -107,5 +110,89 @@ struct Growth {
   double rate;                            ///< slope of ln(envelope) by least squares, 1/s
   std::optional<double> eigenvalue_rate;  ///< largest Re lambda, 1/s; absent if not axisymmetric
 };
+
+/// The frequency content of a history as text: "band-limited to 11400 Hz, 30000 samples in a
+/// second".
+std::string spoken(const Band& band);
+
+/// Write and read the dataset of a number that may be absent.
+void write_optional(files::Writer& file, const std::string& name, const std::optional<double>& x,
+                    const std::string& unit);
+std::optional<double> read_optional(const files::Reader& file, const std::string& name);
+
+/// Write and read an envelope in the group `group` of a result file.
+void write_envelope(files::Writer& file, const std::string& group, const Envelope& envelope);
+Envelope read_envelope(const files::Reader& file, const std::string& group);
+
+/// Write and read the group /transient of a result file.
+void write_transient(files::Writer& file, const Transient& run);
+Transient read_transient(const files::Reader& file);
+
+/// Amplitude spectrum of an oscillation.
+struct Spectrum {
+  Eigen::VectorXd frequency_Hz;
+  /// Amplitude of the pad velocity, m/s; a sine of amplitude 1 m/s has a peak of 1.
+  Eigen::VectorXd amplitude;
+
+  /// A peak of the spectrum.
+  struct Peak {
+    double frequency_Hz;  ///< interpolated between the lines of the spectrum
+    double amplitude;     ///< m/s
+  };
+  std::vector<Peak> peaks;  ///< by descending amplitude
+};
+
+/// Statistics of the first upper pad's motion over the last whole rotations of a transient. They
+/// apply to any lasting motion, also to one that is not periodic because the disc's asymmetry
+/// rotates past the pads.
+struct MotionStatistics {
+  /// A line of the spectrum of the pad velocity.
+  struct Line {
+    double frequency_Hz;
+    double amplitude;  ///< m/s
+    /// Distance from the strongest line divided by the rotation frequency. The rotation of the disc
+    /// causes lines at integers.
+    double rotations;
+  };
+
+  double speed;              ///< rotation speed, rad/s
+  double from;               ///< begin of the first of these rotations, s
+  int n_rotations;           ///< number of rotations, even
+  double band_Hz;            ///< upper frequency limit of the effective values
+  double rms_velocity;       ///< root mean square of the pad velocity, m/s
+  double peak_velocity;      ///< largest |pad velocity|, m/s
+  double rms_displacement;   ///< root mean square of the pad displacement about its mean, m
+  double peak_displacement;  ///< largest |pad displacement|, m
+  double N_min;              ///< smallest normal force on the first pads, N
+  double N_max;              ///< largest normal force on the first pads, N
+  double open;               ///< fraction of the time in which one of the first pads has no contact
+  double drift;              ///< relative change of rms_velocity from the first to the second half
+  bool settled;              ///< whether |drift| is below settled_rms_drift
+  /// Root mean square of the pad velocity in equal sectors of a rotation, averaged over the
+  /// rotations, m/s. The first sector begins at the angle 0, where the angle is `speed` times the
+  /// time.
+  Eigen::VectorXd rms_over_angle;
+  double modulation;  ///< (max - min) / (max + min) of `rms_over_angle`
+  /// Lines above a hundredth of the strongest, by descending amplitude.
+  std::vector<Line> lines;
+};
+
+/// Pad velocity of a transient over time and frequency, with the rotation speed, for run-up and
+/// braking. Windows overlap by three quarters.
+struct Spectrogram {
+  Eigen::VectorXd t;             ///< [n_t] middle of each window, s
+  Eigen::VectorXd speed;         ///< [n_t] rotation speed, rad/s
+  Eigen::VectorXd envelope;      ///< [n_t] largest pad velocity in the window, m/s
+  Eigen::VectorXd frequency_Hz;  ///< [n_f]
+  /// [n_t x n_f] largest amplitude of the spectral lines near each frequency, m/s.
+  Eigen::MatrixXd amplitude;
+  /// [n_t x n_lines] strongest lines of each window by descending amplitude, Hz and m/s; zero when
+  /// there are fewer.
+  Eigen::MatrixXd line_Hz, line_amplitude;
+};
+
+/// Write and read the group /motion_statistics of a result file.
+void write_statistics(files::Writer& file, const MotionStatistics& statistics);
+MotionStatistics read_statistics(const files::Reader& file);
 
 }  // namespace chladni::squeal

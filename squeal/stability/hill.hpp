@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 
 #include "squeal/brake/disc.hpp"
-#include "squeal/squeal_options.hpp"
+#include "squeal/brake_options.hpp"
+#include "squeal/stability/near_groups.hpp"
 #include "squeal/stability/turning_brake.hpp"
-#include "squeal/stability/turning_modes.hpp"
 
 namespace chladni::squeal {
 
@@ -58,5 +58,19 @@ class Hill {
   TurningCoordinates coordinates_;
   int bound_;  ///< upper limit of the harmonics of A
 };
+
+/// Characteristic exponents of a group of states, with their error.
+struct GroupExponents {
+  Eigen::VectorXcd lambda;  ///< [g] 1/s
+  double error;             ///< estimated error, 1/s
+};
+
+/// Characteristic exponents of y' = F(phi) y, phi = step t. For one state lambda is the mean of F.
+/// For more states it follows from the eigenvalues mu of the product of exponentials of the Magnus
+/// series of sixth order over one period T, lambda = ln mu / T; the time steps are halved until the
+/// growth converges. Of the replicas lambda + i k step the one nearest to the mean of
+/// Im(y* F y) / (y* y) is returned, which turns with the motion.
+/// @param step  rad/s
+GroupExponents group_exponents(const NearGroup& group, double step);
 
 }  // namespace chladni::squeal

@@ -2,19 +2,230 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "squeal/stability/group_reduction.hpp"
+#include "common/eigen_every.hpp"
 
 namespace chladni::squeal {
+
+using Eigen::Index;
+
 namespace {
 
+/// Indices of states in `TurningModes`, ascending.
+using States = std::vector<Eigen::Index>;
+
+/// Two states that must belong to one group.
+struct Link {
+  Eigen::Index i, j;
+};
+
+/// An invariant group, or the link that prevents it.
+using Reduced = std::variant<NearGroup, Link>;
+
 using Complex = std::complex<double>;
-using Eigen::Index;
+
+/// The iteration ends when F changes by less, 1/s.
+constexpr double F_error = 1e-7;
+
+/// A share of another state above this is no small correction; nor is one above the second limit
+/// whose harmonics do not end in time.
+constexpr double share_limit = 0.5, long_share_limit = 0.03;
+
+constexpr int n_iterations_max = 80;
+
+/// The iteration for one group; X is zero in the rows of the group. In each step P B P^* multiplies
+/// the columns of `put` at every sample, for all groups at once; `take` is given the product.
+class Reduction {
+ public:
+  Reduction(const TurningModes& modes, double tolerance, States states)
+      : modes_(modes),
+        tolerance_(tolerance),
+        states_(std::move(states)),
+        g_(static_cast<Index>(states_.size())),
+        kept_(3 * modes.B.cols() / 8),
+        X_(AngleSamples::Zero(modes.size() * g_, modes.B.cols())),
+        F_(AngleSamples::Zero(g_ * g_, modes.B.cols())),
+        F_before_(F_)
+  {}
+
+  Index size() const { return g_; }
+  std::optional<Reduced>& outcome() { return outcome_; }
+
+  /// The states of the group and what belongs to them of the others at the sample s, [m x g].
+  void put(Index s, Eigen::Ref<Eigen::MatrixXcd> W)
+  {
+    W = matrix(X_, s, modes_.size());
+    for (Index j = 0; j < g_; ++j) W(states_[static_cast<std::size_t>(j)], j) += 1.0;
+  }
+
+  /// B_qg + B_qq X - X (B_gg + B_gq X) in the place of X, and F with it.
+  void take(Index s, const Eigen::Ref<const Eigen::MatrixXcd>& BW)
+  {
+    auto X = matrix(X_, s, modes_.size());
+    auto F = matrix(F_, s, g_);
+    F = BW(states_, every);
+    X = (BW - X * F).eval();
+  }
+
+  /// After all samples.
+  void step()
+  {
+    AngleHarmonics c = balanced(std::move(X_));
+    const AngleHarmonics change = c - c_before(c);
+    const double size = std::sqrt(change.cwiseAbs2().maxCoeff());
+    const bool diverges = n_steps_ > 2 && size > 3.0 * least_;
+    if (!(c.cwiseAbs2().maxCoeff() < share_limit * share_limit) || diverges) {
+      outcome_ = worst(change);
+      return;
+    }
+    least_ = std::min(least_, size);
+    const bool settled =
+        n_steps_ > 0 && (F_ - F_before_).cwiseAbs2().maxCoeff() < F_error * F_error;
+    F_before_ = F_;
+    c_ = c;
+    if (settled)
+      outcome_ = group_or_link();
+    else if (++n_steps_ == n_iterations_max)
+      outcome_ = worst(c_);
+    else
+      X_ = samples_of(std::move(c));
+  }
+
+ private:
+  Eigen::Map<Eigen::MatrixXcd> matrix(AngleSamples& f, Index column, Index rows) const
+  {
+    return {f.col(column).data(), rows, g_};
+  }
+
+  AngleHarmonics c_before(const AngleHarmonics& c) const
+  {
+    return c_.size() > 0 ? c_ : AngleHarmonics::Zero(c.rows(), c.cols());
+  }
+
+  AngleHarmonics balanced(AngleSamples rest) const
+  {
+    AngleHarmonics c = harmonics_of(std::move(rest));
+    const Index m = modes_.size(), N = c.cols();
+    for (Index column = 0; column < N; ++column) {
+      const Index k = order_of(column, N);
+      Eigen::Map<Eigen::MatrixXcd> X(c.col(column).data(), m, g_);
+      if (std::abs(k) > kept_) {
+        X.setZero();
+        continue;
+      }
+      const Complex turn{0.0, double(k) * modes_.step};
+      for (Index j = 0; j < g_; ++j) X.col(j).array() /= turn + lambda(j) - modes_.lambda.array();
+      X(states_, every).setZero();
+    }
+    return c;
+  }
+
+  Complex lambda(Index j) const { return modes_.lambda[states_[static_cast<std::size_t>(j)]]; }
+
+  Link worst(const AngleHarmonics& change) const
+  {
+    Index row = 0, column = 0;
+    change.cwiseAbs2().maxCoeff(&row, &column);
+    return {row % modes_.size(), states_[static_cast<std::size_t>(row / modes_.size())]};
+  }
+
+  /// What is left out of X is less than its last harmonics; it moves F by B times that, and reaches
+  /// an exponent by way of another state, of which the group has its largest share.
+  double truncation() const
+  {
+    double last = 0.0, share = 0.0;
+    const Index N = c_.cols();
+    for (Index column = 0; column < N; ++column) {
+      const double size = c_.col(column).norm();
+      share = std::max(share, size);
+      if (4 * std::abs(order_of(column, N)) > 3 * kept_) last = std::max(last, size);
+    }
+    return last * modes_.B.colwise().norm().maxCoeff() * std::min(1.0, share);
+  }
+
+  Reduced group_or_link()
+  {
+    const double error = modes_.highest > 0 ? truncation() : 0.0;
+    if (error > tolerance_ && c_.cwiseAbs2().maxCoeff() > long_share_limit * long_share_limit)
+      return worst(c_);
+    for (Index j = 0; j < g_; ++j) F_.row(j * g_ + j).array() += lambda(j);
+    return NearGroup{states_, true, harmonics_of(F_), kept_, error};
+  }
+
+  const TurningModes& modes_;
+  double tolerance_;
+  States states_;
+  Index g_, kept_;
+  AngleSamples X_, F_, F_before_;
+  AngleHarmonics c_;
+  double least_ = std::numeric_limits<double>::infinity();
+  int n_steps_ = 0;
+  std::optional<Reduced> outcome_;
+};
+
+/// P B P^* W at the sample s: B is real, and so are the two products.
+Eigen::MatrixXcd coupled(const TurningModes& modes, Index s, Eigen::MatrixXcd W)
+{
+  const Index n = W.cols();
+  Eigen::MatrixXcd r = to_real_pairs(modes.lambda, std::move(W));
+  Eigen::MatrixXd parts(r.rows(), 2 * n), product(r.rows(), 2 * n);
+  parts << r.real(), r.imag();
+  product.noalias() = modes.at(s) * parts;
+  r.real() = product.leftCols(n);
+  r.imag() = product.rightCols(n);
+  return from_real_pairs(modes.lambda, std::move(r));
+}
+
+/// Until each has its outcome. B is read once for all of them, which is what it costs.
+void solve(std::vector<Reduction>& all, const TurningModes& modes)
+{
+  for (;;) {
+    std::vector<Reduction*> open;
+    Index n_columns = 0;
+    for (Reduction& one : all)
+      if (!one.outcome()) {
+        open.push_back(&one);
+        n_columns += one.size();
+      }
+    if (open.empty()) return;
+    for (Index s = 0; s < modes.B.cols(); ++s) {
+      Eigen::MatrixXcd W(modes.size(), n_columns);
+      Index at = 0;
+      for (Reduction* one : open) {
+        one->put(s, W.middleCols(at, one->size()));
+        at += one->size();
+      }
+      const Eigen::MatrixXcd BW = coupled(modes, s, std::move(W));
+      at = 0;
+      for (Reduction* one : open) {
+        one->take(s, BW.middleCols(at, one->size()));
+        at += one->size();
+      }
+    }
+    for (Reduction* one : open) one->step();
+  }
+}
+
+/// Performs the fixed-point iteration of `near_groups` for each of the disjoint `groups`.
+/// @param tolerance  1/s
+std::vector<Reduced> reduced(const TurningModes& modes, double tolerance,
+                             const std::vector<States>& groups)
+{
+  std::vector<Reduction> all;
+  for (const States& states : groups) all.emplace_back(modes, tolerance, states);
+  solve(all, modes);
+  std::vector<Reduced> results;
+  for (Reduction& one : all) results.push_back(std::move(*one.outcome()));
+  return results;
+}
+
 /// Two states whose coupling is above this part of their distance are in one group from the start.
 constexpr double near = 0.25;
 /// Disjoint sets of states, closed under complex conjugation.

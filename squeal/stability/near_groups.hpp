@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "squeal/stability/turning_modes.hpp"
+#include "squeal/stability/turning_brake.hpp"
 
 namespace chladni::squeal {
 

@@ -6,12 +6,10 @@
 #include <vector>
 
 #include "linear/dense/dense_solvers.hpp"
-#include "squeal/brake/contact_compliance.hpp"
+#include "squeal/brake/linear_contact.hpp"
 #include "squeal/brake/pad_system.hpp"
-#include "squeal/brake/point_shapes.hpp"
-#include "squeal/motion/oscillator_flow.hpp"
-#include "squeal/parallel.hpp"
-#include "squeal/root.hpp"
+#include "squeal/motion/splitting.hpp"
+#include "squeal/numerics.hpp"
 #include "squeal/stability/hill.hpp"
 
 namespace chladni::squeal {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "squeal/brake/disc.hpp"
-#include "squeal/results/results.hpp"
-#include "squeal/squeal_options.hpp"
+#include "squeal/brake_options.hpp"
+#include "squeal/results/squeal_results.hpp"
 
 namespace chladni::squeal {
 

@@ -4,14 +4,18 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
 
-#include "squeal/stability/stability.hpp"
-#include "squeal/stability/stability_samples.hpp"
+#include "common/error.hpp"
+#include "linear/dense/dense_solvers.hpp"
+#include "squeal/stability/eigenvalues.hpp"
+#include "squeal/stability/stability_map.hpp"
 
 namespace chladni::squeal {
+
 namespace {
 
 using Complex = std::complex<double>;
@@ -260,6 +264,178 @@ StabilityProfile stability_over(const StateMatrixOf& A, const SearchRange& range
 StabilityProfile stability_until_loss(const StateMatrixOf& A, const SearchRange& range)
 {
   return profile_of(A, scan_until_loss(A, range));
+}
+
+namespace {
+
+/// Growth that rounding can make of a neutral motion whose eigenvalue has the condition 1, relative
+/// to the largest eigenvalue.
+constexpr double rounding = 1e-12;
+/// Growth, relative to the largest eigenvalue, beyond which no condition is asked for: rounding
+/// makes so much only of eigenvalues that coincide to twelve digits.
+constexpr double beyond_doubt = 1e-6;
+
+/// Condition of each eigenvalue, 1 / |y^H x| of its left and right eigenvectors of norm 1.
+Eigen::VectorXd conditions(const Eigen::MatrixXcd& X)
+{
+  const Eigen::MatrixXcd Y = X.inverse();
+  return Y.rowwise().norm().cwiseProduct(X.colwise().norm().transpose());
+}
+
+bool grows(const Eigen::MatrixXd& A, const Eigen::VectorXcd& lambda)
+{
+  const double growth = lambda.real().maxCoeff(), zero = rounding_of(lambda);
+  if (growth <= zero) return false;
+  if (growth > zero * (beyond_doubt / rounding)) return true;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
+  if (solver.info() != Eigen::Success)
+    throw Error("eigenvalues of the sliding disc: the QR iteration did not converge");
+  const Eigen::VectorXd kappa = conditions(solver.eigenvectors());
+  for (Eigen::Index i = 0; i < kappa.size(); ++i) {
+    // Two eigenvectors that are the same to the last digit have no finite condition.
+    const double doubt = std::isfinite(kappa[i]) ? kappa[i] : beyond_doubt / rounding;
+    if (solver.eigenvalues()[i].real() > zero * doubt) return true;
+  }
+  return false;
+}
+
+StabilitySample sample_at(const StateMatrixOf& A, double value, const Eigen::VectorXcd& expected)
+{
+  const Eigen::MatrixXd A_here = A(value);
+  const Eigen::VectorXcd lambda = oscillating_eigenvalues(A_here);
+  return {value, expected.size() > 0 ? matched(lambda, expected) : lambda, grows(A_here, lambda)};
+}
+
+/// @param is_enough  of the samples so far
+std::vector<StabilitySample> scan_until(const StateMatrixOf& A, const SearchRange& range,
+                                        const auto& is_enough)
+{
+  std::vector<StabilitySample> samples;
+  for (const double value : Eigen::VectorXd::LinSpaced(range.count, range.from, range.to)) {
+    Eigen::VectorXcd expected;
+    if (!samples.empty()) expected = samples.back().lambda;
+    if (samples.size() > 1) expected += samples.back().lambda - samples.end()[-2].lambda;
+    samples.push_back(sample_at(A, value, expected));
+    if (is_enough(samples)) break;
+  }
+  return samples;
+}
+
+}  // namespace
+
+bool is_unstable(const Eigen::MatrixXd& A)
+{
+  return grows(A, oscillating_eigenvalues(A));
+}
+
+double rounding_of(const Eigen::VectorXcd& lambda)
+{
+  return rounding * lambda.cwiseAbs().maxCoeff();
+}
+
+std::vector<StabilitySample> scan(const StateMatrixOf& A, const SearchRange& range)
+{
+  return scan_until(A, range, [](const auto& /*samples*/) { return false; });
+}
+
+std::vector<StabilitySample> scan_until_loss(const StateMatrixOf& A, const SearchRange& range)
+{
+  return scan_until(A, range, [](const std::vector<StabilitySample>& samples) {
+    return samples.size() > 1 && samples.back().unstable && !samples.end()[-2].unstable;
+  });
+}
+
+StabilitySample sample_between(const StateMatrixOf& A, const StabilitySample& low,
+                               const StabilitySample& high, double t)
+{
+  return sample_at(A, low.value + t * (high.value - low.value),
+                   (1.0 - t) * low.lambda + t * high.lambda);
+}
+
+namespace {
+
+constexpr int newton_steps_max = 30;
+constexpr int n_scanned = 128;
+/// Change of omega, and a hundredth of that of the value, relative, at which Newton's method has
+/// converged.
+constexpr double converged = 1e-13;
+/// The same where it no longer falls: rounding, which in a large system is what remains.
+constexpr double converged_at_rounding = 1e-10;
+/// Step of the central difference of A, relative to the value: A is smooth in it, and rounding and
+/// truncation both stay below 1e-9, which slows the last steps of Newton's method only.
+constexpr double difference = 1e-5;
+
+/// g and its derivatives at (value, omega).
+struct Bordered {
+  Complex g, g_omega, g_value;
+  Eigen::VectorXcd u;
+};
+
+Bordered bordered(const StateMatrixOf& A, double value, double omega,
+                  const Eigen::VectorXcd& border)
+{
+  const Eigen::Index n = border.size();
+  const Complex i(0.0, 1.0);
+  Eigen::MatrixXcd B = Eigen::MatrixXcd::Zero(n + 1, n + 1);
+  B.topLeftCorner(n, n) = A(value).cast<Complex>();
+  // Scaled to the size of A, for the system to be well scaled.
+  const double scale = B.topLeftCorner(n, n).cwiseAbs().maxCoeff();
+  B.topLeftCorner(n, n).diagonal().array() -= i * omega;
+  B.col(n).head(n) = scale * border;
+  B.row(n).head(n) = scale * border.adjoint();
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(B), adjoint(B.adjoint());
+  const Eigen::VectorXcd unit = scale * Eigen::VectorXcd::Unit(n + 1, n);
+  const Eigen::VectorXcd x = lu.solve(unit), y = adjoint.solve(unit);
+  const Eigen::VectorXcd u = x.head(n), w = y.head(n);
+  const double step = difference * std::abs(value);
+  const Eigen::MatrixXd A_value = (A(value + step) - A(value - step)) / (2.0 * step);
+  return {x[n], w.dot(i * u) / scale, -w.dot(A_value * u) / scale, u};
+}
+
+}  // namespace
+
+std::optional<HopfPoint> hopf_point(const StateMatrixOf& A, double value, double omega,
+                                    const Eigen::VectorXcd& u)
+{
+  Eigen::VectorXcd border = u.normalized();
+  double last = std::numeric_limits<double>::infinity();
+  for (int k = 1; k <= newton_steps_max; ++k) {
+    const Bordered at = bordered(A, value, omega, border);
+    Eigen::Matrix2d J;
+    J << at.g_omega.real(), at.g_value.real(), at.g_omega.imag(), at.g_value.imag();
+    const Eigen::Vector2d change =
+        -J.partialPivLu().solve(Eigen::Vector2d(at.g.real(), at.g.imag()));
+    omega += change[0];
+    value += change[1];
+    border = at.u.normalized();
+    if (!std::isfinite(omega) || !std::isfinite(value)) return std::nullopt;
+    const double size = std::max(std::abs(change[0] / omega), 1e-2 * std::abs(change[1] / value));
+    if (size <= converged || (size <= converged_at_rounding && size >= 0.5 * last))
+      return HopfPoint{value, omega, border, k};
+    last = size;
+  }
+  return std::nullopt;
+}
+
+CriticalValue critical_value(const Brake& brake, const CriticalCase& search)
+{
+  const StateMatrixOf A = [&](double value) {
+    return brake.with(search.parameter, value)->state_matrix(search.speed);
+  };
+  CriticalValue result{
+      .parameter = key_of(search.parameter),
+      .speed = search.speed,
+      .value = {},
+      .frequency_Hz = 0.0,
+      .n_newton_steps = 0,
+      .profile = stability_over(A, {.from = search.from, .to = search.to, .count = n_scanned})};
+  std::optional<StabilityPoint> limit = first_loss(*result.profile);
+  if (!limit) limit = first_regain(*result.profile);
+  if (!limit) return result;
+  result.value = limit->value;
+  result.frequency_Hz = limit->frequency_Hz;
+  result.n_newton_steps = limit->n_newton_steps;
+  return result;
 }
 
 }  // namespace chladni::squeal

@@ -6,7 +6,7 @@
 
 #include "common/error.hpp"
 #include "files/hdf5.hpp"
-#include "mbs_export/files/provenance.hpp"
+#include "mbs_export/files/body_files.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -8,21 +8,20 @@
 #include <numbers>
 
 #include "common/error.hpp"
-#include "linear/dense/real_eigenvalues.hpp"
+#include "linear/dense/eigenmodes.hpp"
+#include "squeal/brake/linear_contact.hpp"
 #include "squeal/brake/pad_system.hpp"
-#include "squeal/brake/point_shapes.hpp"
-#include "squeal/brake/state_matrix.hpp"
 #include "squeal/motion/generalised_alpha.hpp"
-#include "squeal/motion/oscillator_flow.hpp"
-#include "squeal/stability/stability.hpp"
-#include "squeal/transient/sticking.hpp"
-#include "squeal/transient/transient_start.hpp"
+#include "squeal/motion/splitting.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 
 namespace chladni::squeal {
+
+using std::numbers::pi;
+
 namespace {
 
 using Complex = std::complex<double>;
-using std::numbers::pi;
 
 /// Steps per period that are tried, each a factor of the square root of two finer.
 constexpr int step_counts[] = {10, 14, 20, 28, 40, 56, 80, 112, 160, 224, 320, 448, 640};
@@ -268,6 +267,78 @@ IntegratorChoice choose_integrator(const Disc& disc, const std::optional<Inertia
                          ? omega_h * omega_h * omega_h / 12.0
                          : run.growth_error * omega_h / disc.omega.maxCoeff();
   return choice;
+}
+
+namespace {
+
+/// eps over the speed of sliding. The creep of a pad that sticks is an error of first order in it.
+constexpr double creep = 1e-3;
+
+/// sum over the harmonics of the amplitude of each mode, a bound of its largest value.
+Eigen::ArrayXd amplitudes(const Harmonics& f)
+{
+  return (f.cosine.cwiseAbs2() + f.sine.cwiseAbs2()).cwiseSqrt().colwise().sum().transpose();
+}
+
+}  // namespace
+
+SquealOptions with_friction_at_rest(SquealOptions options, const Disc& disc, double speed)
+{
+  const auto regularise = [&](FrictionLaw& law) {
+    if (law.regularisation == 0.0)
+      law.regularisation = creep * std::abs(speed) * disc.rings.front().radius;
+  };
+  regularise(options.friction);
+  for (PadPair& pad : options.pads)
+    if (pad.friction) regularise(*pad.friction);
+  return options;
+}
+
+double surface_speed(const Disc& disc, double thickness, const ModalState& start)
+{
+  const DiscRing& ring = disc.rings.front();
+  const Eigen::ArrayXd slopes =
+      (amplitudes(ring.W_r).square() + amplitudes(ring.W_t).square()).sqrt();
+  const Eigen::ArrayXd rates =
+      (disc.omega.cwiseProduct(start.q).cwiseAbs2() + start.v.cwiseAbs2()).cwiseSqrt().array();
+  const double bending = 0.5 * thickness * (slopes * rates).sum();
+  if (ring.V_r.cosine.size() == 0) return bending;
+  const Eigen::ArrayXd in_plane =
+      (amplitudes(ring.V_r).square() + amplitudes(ring.V_t).square()).sqrt();
+  return bending + (in_plane * rates).sum();
+}
+
+namespace {
+
+/// a_cos = a_sin in the first pair, turned so that the crest of the cosine is at `angle`; at rest
+/// in the inertial frame, i.e. a' = 0, p = Omega D a. Pairs in the plane do not move the pads.
+ModalState start_in_first_pair(const InertialDisc& disc, const TransientCase& run, double angle)
+{
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(disc.n_modes());
+  const Eigen::VectorXd& U = disc.rings.front().U;
+  const double still = 1e-3 * U.cwiseAbs().maxCoeff();
+  Eigen::Index first = 0;
+  for (Eigen::Index i = 1; i < disc.n_modes(); ++i) {
+    if (disc.nodal_diameters[static_cast<std::size_t>(i)] > 0 && std::abs(U[i]) > still &&
+        (disc.nodal_diameters[static_cast<std::size_t>(first)] == 0 ||
+         std::abs(U[first]) <= still || disc.omega[i] < disc.omega[first]))
+      first = i;
+  }
+  const bool pair = disc.nodal_diameters[static_cast<std::size_t>(first)] > 0;
+  a.segment(first, pair ? 2 : 1).setConstant(run.initial_pad_displacement / U[first]);
+  const Eigen::VectorXd at_pad = turned(disc, a, angle);
+  return {disc.R * at_pad, disc.R * (run.speed * disc.D * at_pad)};
+}
+
+}  // namespace
+
+ModalState transient_start(const Disc& disc, const std::optional<InertialDisc>& inertial,
+                           const TransientCase& run, double angle)
+{
+  if (inertial) return start_in_first_pair(*inertial, run, angle);
+  const Eigen::VectorXd W = shapes_at(disc, angle).W;
+  return {W * (run.initial_pad_displacement / W.squaredNorm()),
+          Eigen::VectorXd::Zero(disc.n_modes())};
 }
 
 }  // namespace chladni::squeal

@@ -5,7 +5,8 @@
 
 #include "squeal/brake/disc.hpp"
 #include "squeal/brake/inertial_frame.hpp"
-#include "squeal/squeal_options.hpp"
+#include "squeal/brake_options.hpp"
+#include "squeal/motion/splitting.hpp"
 
 namespace chladni::squeal {
 
@@ -37,5 +38,23 @@ const char* name_of(IntegratorKind kind);
 /// @param speed  rad/s
 double growth_error_of(IntegratorKind kind, const InertialDisc& disc, const SquealOptions& options,
                        double speed, int steps_per_period);
+
+/// The options with friction whose direction is defined at rest. For a sticking pad Coulomb's law
+/// has no formula for the force, and an implicit step has no solution. If the scene has no
+/// regularisation, eps is set to 1e-3 of the sliding speed: a sticking pad then creeps with about
+/// this speed, and the friction in sliding changes relatively by eps^2 / 2.
+/// @param speed  rotation speed of the disc, rad/s
+SquealOptions with_friction_at_rest(SquealOptions options, const Disc& disc, double speed);
+
+/// Upper bound of the in-plane velocity (m/s) of the contact planes in free vibration from `start`,
+/// sum_i |(omega_i q_i, q'_i)| (h / 2 |(W_r,i, W_t,i)| + |(V_r,i, V_t,i)|), with the amplitudes on
+/// the first ring. If it is below the sliding speed, no pad can stick.
+/// @param thickness  h, m
+double surface_speed(const Disc& disc, double thickness, const ModalState& start);
+
+/// Initial state of `transient`: the pads at `angle` (rad) are displaced by
+/// `initial_pad_displacement`.
+ModalState transient_start(const Disc& disc, const std::optional<InertialDisc>& inertial,
+                           const TransientCase& run, double angle);
 
 }  // namespace chladni::squeal

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "squeal/results/signal_results.hpp"
 #include "squeal/results/transient_results.hpp"
 
 namespace chladni::squeal {

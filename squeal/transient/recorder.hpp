@@ -5,9 +5,13 @@
 #include <vector>
 
 #include "squeal/brake/contact.hpp"
+#include "squeal/brake/disc.hpp"
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/brake_options.hpp"
 #include "squeal/motion/state_archive.hpp"
-#include "squeal/results/results.hpp"
-#include "squeal/transient/decimator.hpp"
+#include "squeal/results/squeal_results.hpp"
+#include "squeal/transient/resampling.hpp"
+#include "squeal/transient/transient_steps.hpp"
 
 namespace chladni::squeal {
 
@@ -88,6 +92,34 @@ class Recorder {
   std::int64_t n_open_ = 0;  ///< samples without contact in the window
   PeakFinder velocity_;
   PeakFinder displacement_;
+};
+
+/// Records modal states while a transient runs: snapshots over the whole run and, for an
+/// axisymmetric disc, all displacements of the tail in the inertial frame.
+class SnapshotRecorder {
+ public:
+  /// @param inertial, run  must outlive the recorder
+  SnapshotRecorder(const Disc& disc, const std::optional<InertialDisc>& inertial,
+                   const RecordingPlan& plan, const TransientCase& run);
+
+  /// Records sample i at time t (s), which is the present state of the steps.
+  void add(std::int64_t i, double t, const ModalSteps& steps);
+
+  /// The snapshots so far.
+  Snapshots snapshots() const;
+  /// The displacements for Transient::tail_a.
+  Eigen::MatrixXd tail_a() const { return tail_a_.leftCols(n_tail_); }
+
+  void exchange(StateArchive& archive);
+
+ private:
+  Eigen::VectorXd omega_;
+  const std::optional<InertialDisc>& inertial_;
+  RecordingPlan plan_;
+  const TransientCase& run_;
+  Snapshots snapshots_;  ///< allocated for the whole run
+  Eigen::MatrixXd tail_a_;
+  Eigen::Index n_tail_ = 0;
 };
 
 }  // namespace chladni::squeal

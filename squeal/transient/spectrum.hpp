@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "squeal/results/results.hpp"
+#include "squeal/results/squeal_results.hpp"
 
 namespace chladni::squeal {
 
@@ -11,5 +11,10 @@ namespace chladni::squeal {
 /// @param step  distance of the samples, s
 /// @throws chladni::Error for fewer than 64 samples.
 Spectrum spectrum(std::span<const double> x, double step);
+
+/// Spectrogram of the whole history of a transient, in at most 200 windows of at least 64 samples,
+/// with the five strongest lines of each window.
+/// @throws chladni::Error for a history of fewer than 256 samples.
+Spectrogram spectrogram(const Transient& run);
 
 }  // namespace chladni::squeal

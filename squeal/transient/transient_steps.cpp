@@ -4,15 +4,16 @@
 #include <numbers>
 #include <optional>
 
-#include "squeal/motion/contact_kick.hpp"
+#include "squeal/motion/disc_motion.hpp"
+#include "squeal/motion/dop853.hpp"
 #include "squeal/motion/dormand_prince.hpp"
-#include "squeal/motion/exponential_flow.hpp"
 #include "squeal/motion/generalised_alpha.hpp"
-#include "squeal/motion/rotating_disc.hpp"
-#include "squeal/motion/speed_program.hpp"
-#include "squeal/transient/sticking.hpp"
+#include "squeal/motion/splitting.hpp"
+#include "squeal/transient/integrator_choice.hpp"
+#include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {
+
 namespace {
 
 ModalState with_plates_at_rest(ModalState x, Eigen::Index n)
@@ -192,6 +193,29 @@ std::unique_ptr<ModalSteps> transient_steps(const Disc& disc, const SquealOption
       break;
   }
   return std::make_unique<SplittingSteps>(disc, options, run, step, start);
+}
+
+LumpedSteps::LumpedSteps(const LumpedBrake& brake, const TransientCase& run, double step)
+    : brake_(brake),
+      speed_(run.speed),
+      step_(step),
+      x_(brake.start(run.initial_pad_displacement)),
+      contacts_(1)
+{}
+
+const std::vector<ContactResult<double>>& LumpedSteps::next()
+{
+  contacts_[0] = brake_.contact(x_, speed_);
+  ++n_evaluations_;
+  if (!(x_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() < motion_max))
+    contacts_[0].upper.z = std::numeric_limits<double>::quiet_NaN();
+  const auto f = [&](const Eigen::VectorXd& x) {
+    ++n_evaluations_;
+    return brake_.rate(x, speed_);
+  };
+  x_ = dop853_step(f, x_, step_);
+  ++n_;
+  return contacts_;
 }
 
 }  // namespace chladni::squeal

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <random>
 
-#include "brake_fmu/brake_file.hpp"
 #include "brake_fmu/brake_simulation.hpp"
+#include "brake_fmu/driven_brake.hpp"
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/motion/rotating_disc.hpp"
+#include "squeal/motion/disc_motion.hpp"
 
 namespace chladni::brake_fmu {
 namespace {

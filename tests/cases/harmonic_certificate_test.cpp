@@ -1,4 +1,4 @@
-#include "cases/harmonic_certificate.hpp"
+#include "cases/whole_body.hpp"
 
 #include <gtest/gtest.h>
 

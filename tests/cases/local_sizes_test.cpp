@@ -1,4 +1,4 @@
-#include "cases/local_sizes.hpp"
+#include "cases/chosen_mesh.hpp"
 
 #include <gtest/gtest.h>
 

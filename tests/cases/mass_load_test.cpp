@@ -2,9 +2,8 @@
 
 #include <Eigen/Geometry>
 
-#include "cases/stressed_states.hpp"
-#include "mbs_export/mass_integrals.hpp"
-#include "mbs_export/stiffening.hpp"
+#include "cases/moving_body.hpp"
+#include "mbs_export/inertia.hpp"
 
 namespace chladni::cases {
 namespace {

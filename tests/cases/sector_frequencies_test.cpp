@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "cases/mesh_frequencies.hpp"
-#include "cases/mesh_scene.hpp"
+#include "cases/chosen_mesh.hpp"
+#include "cases/scene_mesh.hpp"
 
 namespace chladni::cases {
 namespace {

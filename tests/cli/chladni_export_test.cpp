@@ -5,8 +5,7 @@
 
 #include <filesystem>
 
-#include "mbs_export/files/body_file.hpp"
-#include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "mbs_export/make_body.hpp"
 #include "tests/cli/programs.hpp"
 #include "tests/mbs_export/wheel.hpp"

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mbs_export/files/body_file.hpp"
-#include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "tests/cli/programs.hpp"
 
 namespace chladni::cli::testing {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "mbs_export/files/body_file.hpp"
-#include "squeal/results/result_file.hpp"
+#include "mbs_export/files/body_files.hpp"
+#include "squeal/results/squeal_results.hpp"
 #include "tests/cli/two_mode_body.hpp"
 
 namespace chladni::cli::testing {

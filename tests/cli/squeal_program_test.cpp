@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "files/hdf5.hpp"
-#include "mbs_export/files/body_file.hpp"
-#include "squeal/results/result_file.hpp"
+#include "mbs_export/files/body_files.hpp"
+#include "squeal/results/squeal_results.hpp"
 #include "tests/cli/programs.hpp"
 #include "tests/cli/two_mode_body.hpp"
 

@@ -1,5 +1,5 @@
 // What a confined process cannot do, each tried by a process of its own.
-#include "confinement/confine.hpp"
+#include "confinement/sandbox.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -25,8 +25,7 @@
 #include <thread>
 #include <vector>
 
-#include "confinement/errand.hpp"
-#include "confinement/system_calls.hpp"
+#include "confinement/helper_process.hpp"
 
 namespace chladni::confinement {
 namespace {

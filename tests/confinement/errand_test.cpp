@@ -1,5 +1,5 @@
 // Programs that are started for one answer.
-#include "confinement/errand.hpp"
+#include "confinement/helper_process.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "cyclic/exact_pairs.hpp"
-#include "linear/dense/orthogonal_factor.hpp"
+#include "cyclic/harmonic_model.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 #include <gtest/gtest.h>
 

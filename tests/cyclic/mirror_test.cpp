@@ -1,4 +1,4 @@
-#include "cyclic/mirror.hpp"
+#include "cyclic/harmonic_coordinates.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,6 @@
 
 #include "common/eigen_every.hpp"
 #include "cyclic/harmonic_model.hpp"
-#include "cyclic/harmonic_modes.hpp"
-#include "cyclic/symmetric_half.hpp"
 #include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::cyclic {

@@ -5,7 +5,6 @@
 
 #include <limits>
 
-#include "files/hdf5_contents.hpp"
 #include "scratch_folder.hpp"
 
 namespace chladni::files {

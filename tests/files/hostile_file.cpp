@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "files/hdf5.hpp"
+#include "files/input_file.hpp"
 #include "files/seal.hpp"
-#include "files/xxh64.hpp"
 
 namespace chladni::files::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-#include "files/hdf5_handle.hpp"
+#include "files/hdf5_objects.hpp"
 #include "scratch_folder.hpp"
 
 /// Files that are made to deceive.

@@ -1,4 +1,4 @@
-#include "files/replacement.hpp"
+#include "files/output_file.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "files/text_file.hpp"
 #include "tests/files/scratch_folder.hpp"
 
 namespace chladni::files {

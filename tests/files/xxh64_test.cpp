@@ -1,4 +1,4 @@
-#include "files/xxh64.hpp"
+#include "files/input_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fmu/propagator.hpp"
+#include "fmu/modal_model.hpp"
 
 #include <gtest/gtest.h>
 

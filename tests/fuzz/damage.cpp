@@ -8,8 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "files/hdf5_handle.hpp"
-#include "files/visit_objects.hpp"
+#include "files/hdf5_objects.hpp"
 
 namespace chladni::fuzz {
 namespace {

@@ -1,5 +1,5 @@
 // Does what is asked of the text of a .geo before Gmsh reads it end, whatever the text is?
-#include "mesh/geo_code.hpp"
+#include "mesh/gmsh_text.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* bytes, std::size_t size)
 {

@@ -2,7 +2,7 @@
 // verdict?
 #include "common/error.hpp"
 #include "memory_file.hpp"
-#include "mesh/check_msh.hpp"
+#include "mesh/gmsh_text.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size)
 {

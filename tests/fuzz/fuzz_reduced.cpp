@@ -1,7 +1,7 @@
 // Does a damaged *.reduced.h5 ever end in anything but a clear error?
 #include "fuzz_file.hpp"
 #include "mbs_export/check_body.hpp"
-#include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size)
 {

@@ -1,11 +1,10 @@
 #include "read_results.hpp"
 
-#include "report/describe.hpp"
-#include "report/output.hpp"
-#include "report/page/squeal_motions.hpp"
-#include "report/page/squeal_results.hpp"
+#include "report/describe_body.hpp"
+#include "report/page/squeal_page.hpp"
+#include "report/text_table.hpp"
 #include "squeal/brake/radiation.hpp"
-#include "squeal/results/result_file.hpp"
+#include "squeal/results/squeal_results.hpp"
 
 namespace chladni::fuzz {
 

@@ -3,12 +3,11 @@
 
 #include "hard_case.hpp"
 #include "linear/dense/dense_solvers.hpp"
-#include "mbs_export/constrained_modes.hpp"
-#include "mbs_export/held_dofs.hpp"
-#include "mbs_export/interface_modes.hpp"
+#include "mbs_export/attachment_dofs.hpp"
+#include "mbs_export/free_modes.hpp"
+#include "mbs_export/held_modes.hpp"
 #include "mbs_export/make_body.hpp"
-#include "mbs_export/mode_shift.hpp"
-#include "mbs_export/orthogonalize.hpp"
+#include "mbs_export/response_error.hpp"
 #include "tests/mbs_export/bending_beam.hpp"
 #include "tests/mbs_export/wheel.hpp"
 

@@ -5,8 +5,8 @@
 
 #include "hard_case.hpp"
 #include "plate/assembly/assemble.hpp"
+#include "plate/dofs/dof_map.hpp"
 #include "plate/dofs/free_motions.hpp"
-#include "plate/dofs/supports.hpp"
 #include "tests/plate/small_disc.hpp"
 #include "tests/plate/square_plate.hpp"
 

@@ -8,7 +8,7 @@
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/motion/dormand_prince.hpp"
 #include "squeal/motion/generalised_alpha.hpp"
-#include "squeal/stability/stability.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "squeal/transient/transient.hpp"
 
 namespace chladni::hard_cases {

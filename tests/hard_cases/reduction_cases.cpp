@@ -4,11 +4,10 @@
 #include <numbers>
 #include <numeric>
 
-#include "common/petsc_compat.hpp"
+#include "common/petsc.hpp"
 #include "hard_case.hpp"
 #include "linear/cholesky/sylvester.hpp"
 #include "linear/dense/dense_solvers.hpp"
-#include "reduce/basis_rows.hpp"
 #include "reduce/completeness.hpp"
 #include "reduce/craig_bampton.hpp"
 #include "reduce/partition.hpp"

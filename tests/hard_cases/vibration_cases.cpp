@@ -9,8 +9,8 @@
 #include "mesh/generators.hpp"
 #include "mesh/partition.hpp"
 #include "plate/assembly/assemble.hpp"
+#include "plate/dofs/dof_map.hpp"
 #include "plate/dofs/free_motions.hpp"
-#include "plate/dofs/supports.hpp"
 #include "reduce/supported_solutions.hpp"
 #include "tests/mbs_export/bending_beam.hpp"
 

@@ -9,15 +9,15 @@ from pathlib import Path
 
 PROLOGUE = """
 #include "mbs_export/make_body.hpp"
-#include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/partition.hpp"
 #include "plate/assembly/assemble.hpp"
-#include "reduce/held_masters.hpp"
+#include "reduce/support.hpp"
 #include "reduce/reduction.hpp"
 #include "reduce_export/reduced_system.hpp"
 #include "squeal/models/flexible_disc.hpp"
-#include "squeal/study/run.hpp"
+#include "squeal/study/study.hpp"
 using namespace chladni;
 """
 # What each piece of the page takes as given.

@@ -1,4 +1,4 @@
-"""Each room has a README.md, and the files that it names are there. Usage: room_readmes.py SOURCE_DIR"""
+"""Each room has a README.md with a line for each header, and the files that it names are there. Usage: room_readmes.py SOURCE_DIR"""
 
 import re
 import sys
@@ -15,7 +15,11 @@ def complaints(root):
         if not readme.is_file():
             yield f"{room.name}/ has no README.md"
             continue
-        for name in re.findall(r"`([\w/]+\.(?:cpp|hpp|h))`", readme.read_text()):
+        text = readme.read_text()
+        for header in sorted(path for path in room.rglob("*") if path.suffix in (".hpp", ".h")):
+            if f"`{header.relative_to(room).as_posix()}`" not in text:
+                yield f"{room.name}/README.md has no line for {header.relative_to(room)}"
+        for name in re.findall(r"`([\w/]+\.(?:cpp|hpp|h))`", text):
             if not (room / name).is_file() and not (root / name).is_file():
                 yield f"{room.name}/README.md names {name}, which is not there"
 

@@ -1,4 +1,4 @@
-#include "linear/kernels/adjacency.hpp"
+#include "linear/kernels/matrix_graph.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "linear/cholesky/cholesky_types.hpp"
+#include "linear/cholesky/petsc_factor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 #include <numeric>
 
 #include "chain.hpp"
-#include "common/petsc_compat.hpp"
+#include "common/petsc.hpp"
 #include "linear/cholesky/elimination_order.hpp"
 #include "linear/cholesky/factorization.hpp"
-#include "linear/cholesky/inverse_form.hpp"
+#include "linear/cholesky/part_solver.hpp"
 #include "linear/cholesky/supernodal/supernodal_factor.hpp"
 #include "linear/kernels/dense_matrices.hpp"
-#include "linear/kernels/random_block.hpp"
+#include "linear/kernels/orthonormalisation.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "matrices.hpp"
 

@@ -1,4 +1,4 @@
-#include "linear/kernels/component_forms.hpp"
+#include "linear/kernels/forms.hpp"
 
 #include <gtest/gtest.h>
 

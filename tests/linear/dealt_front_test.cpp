@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "common/petsc.hpp"
-#include "linear/cholesky/supernodal/dealt_elimination.hpp"
-#include "linear/cholesky/supernodal/shared_columns.hpp"
-#include "linear/kernels/aligned_numbers.hpp"
+#include "linear/cholesky/supernodal/shared_fronts.hpp"
+#include "linear/cholesky/supernodal/tiled_columns.hpp"
+#include "linear/kernels/storage.hpp"
 #include "tests/linear/random_matrix.hpp"
 
 namespace chladni::linear {

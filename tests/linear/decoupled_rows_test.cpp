@@ -9,12 +9,10 @@
 #include <vector>
 
 #include "linear/cholesky/factorization.hpp"
-#include "linear/cholesky/inverse_form.hpp"
 #include "linear/cholesky/part_solver.hpp"
 #include "linear/kernels/dense_matrices.hpp"
-#include "linear/kernels/form_parts.hpp"
+#include "linear/kernels/forms.hpp"
 #include "linear/kernels/gather.hpp"
-#include "linear/kernels/parted_form.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "matrices.hpp"
 

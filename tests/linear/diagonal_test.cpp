@@ -1,4 +1,4 @@
-#include "linear/kernels/diagonal.hpp"
+#include "linear/kernels/sparse_matrices.hpp"
 
 #include <gtest/gtest.h>
 

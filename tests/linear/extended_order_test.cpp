@@ -1,4 +1,4 @@
-#include "linear/cholesky/extended_order.hpp"
+#include "linear/cholesky/elimination_order.hpp"
 
 #include <gtest/gtest.h>
 

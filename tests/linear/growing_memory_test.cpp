@@ -1,4 +1,4 @@
-#include "linear/kernels/growing_memory.hpp"
+#include "linear/kernels/storage.hpp"
 
 #include <gtest/gtest.h>
 #include <malloc.h>

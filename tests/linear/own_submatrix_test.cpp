@@ -1,4 +1,4 @@
-#include "linear/kernels/own_submatrix.hpp"
+#include "linear/kernels/sparse_matrices.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "common/index_sets.hpp"
+#include "common/petsc.hpp"
 #include "linear/cholesky/elimination_order.hpp"
 #include "linear/kernels/decoupled_rows.hpp"
 #include "linear/kernels/gather.hpp"

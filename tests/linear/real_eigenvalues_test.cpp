@@ -1,4 +1,4 @@
-#include "linear/dense/real_eigenvalues.hpp"
+#include "linear/dense/eigenmodes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "linear/kernels/scratch.hpp"
+#include "linear/kernels/storage.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,10 +8,10 @@
 #include <fstream>
 
 #include "linear/kernels/dense_matrices.hpp"
-#include "linear/kernels/own_submatrix.hpp"
+#include "linear/kernels/sparse_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "linear/lanczos/block_lanczos.hpp"
-#include "linear/read_solver_options.hpp"
+#include "linear/solver_options.hpp"
 #include "matrices.hpp"
 
 namespace chladni::linear {

@@ -1,4 +1,4 @@
-#include "linear/cholesky/shared_dissection.hpp"
+#include "linear/cholesky/elimination_order.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,8 @@
 #include <cstdlib>
 
 #include "common/petsc.hpp"
-#include "linear/cholesky/elimination_order.hpp"
 #include "linear/cholesky/supernodal/supernodal_factor.hpp"
-#include "linear/kernels/own_submatrix.hpp"
+#include "linear/kernels/sparse_matrices.hpp"
 #include "matrices.hpp"
 
 namespace chladni::linear {

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "common/eigen_every.hpp"
-#include "linear/kernels/lanes.hpp"
-#include "linear/kernels/panel_columns.hpp"
-#include "linear/kernels/scratch.hpp"
+#include "linear/kernels/panel_kernels.hpp"
+#include "linear/kernels/storage.hpp"
 #include "matrices.hpp"
 
 namespace chladni::linear {

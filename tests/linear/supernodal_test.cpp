@@ -7,13 +7,12 @@
 
 #include "common/checked_count.hpp"
 #include "linear/cholesky/supernodal/assembly_tree.hpp"
-#include "linear/cholesky/supernodal/dense_elimination.hpp"
-#include "linear/cholesky/supernodal/subtrees.hpp"
+#include "linear/cholesky/supernodal/fronts.hpp"
+#include "linear/cholesky/supernodal/rank_groups.hpp"
 #include "linear/cholesky/supernodal/tiled_columns.hpp"
-#include "linear/kernels/aligned_numbers.hpp"
 #include "linear/kernels/gather.hpp"
-#include "linear/kernels/tall_products.hpp"
-#include "linear/kernels/tile_kernels.hpp"
+#include "linear/kernels/panel_kernels.hpp"
+#include "linear/kernels/storage.hpp"
 #include "tests/linear/random_matrix.hpp"
 
 namespace chladni::linear {

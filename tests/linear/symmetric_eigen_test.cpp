@@ -1,4 +1,4 @@
-#include "linear/kernels/symmetric_eigen.hpp"
+#include "linear/kernels/small_matrices.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mbs_export/body_damping.hpp"
+#include "mbs_export/make_body.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,7 @@
 
 #include "linear/dense/dense_solvers.hpp"
 #include "mbs_export/check_body.hpp"
-#include "mbs_export/files/body_file.hpp"
-#include "mbs_export/files/reduced_file.hpp"
-#include "mbs_export/make_body.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"
 

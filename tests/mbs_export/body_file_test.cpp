@@ -1,4 +1,4 @@
-#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 #include "expect_equal.hpp"
 #include "files/hdf5.hpp"
 #include "files/seal.hpp"
-#include "mbs_export/contact_rings.hpp"
 #include "mbs_export/make_body.hpp"
+#include "mbs_export/modal_body.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "version_1.hpp"
 #include "wheel.hpp"

@@ -1,5 +1,5 @@
-#include "mbs_export/condensed_body.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "mbs_export/make_body.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,6 @@
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "mbs_export/check_body.hpp"
-#include "mbs_export/make_body.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {

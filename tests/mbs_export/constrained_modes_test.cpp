@@ -1,4 +1,4 @@
-#include "mbs_export/constrained_modes.hpp"
+#include "mbs_export/held_modes.hpp"
 
 #include <gtest/gtest.h>
 

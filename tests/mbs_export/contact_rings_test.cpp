@@ -1,4 +1,4 @@
-#include "mbs_export/contact_rings.hpp"
+#include "mbs_export/modal_body.hpp"
 
 #include <gtest/gtest.h>
 

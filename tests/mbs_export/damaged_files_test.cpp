@@ -5,8 +5,7 @@
 
 #include "common/error.hpp"
 #include "mbs_export/check_body.hpp"
-#include "mbs_export/files/body_file.hpp"
-#include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "mbs_export/measured/measured_functions.hpp"
 #include "mbs_export/measured/measured_modes.hpp"
 #include "tests/fuzz/fuzz_file.hpp"

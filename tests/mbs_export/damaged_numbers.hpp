@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "files/hdf5_objects.hpp"
 #include "files/seal.hpp"
-#include "files/visit_objects.hpp"
 
 namespace chladni::mbs_export::test {
 

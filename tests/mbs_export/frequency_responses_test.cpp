@@ -10,9 +10,8 @@
 
 #include "common/eigen_every.hpp"
 #include "mbs_export/make_body.hpp"
-#include "mbs_export/responses/response_csv.hpp"
-#include "mbs_export/responses/response_file.hpp"
-#include "mbs_export/responses/response_option_error.hpp"
+#include "mbs_export/responses/response_files.hpp"
+#include "mbs_export/responses/response_options.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "tests/mbs_export/bending_beam.hpp"
 

@@ -1,4 +1,4 @@
-#include "mbs_export/held_dofs.hpp"
+#include "mbs_export/attachment_dofs.hpp"
 
 #include <gtest/gtest.h>
 

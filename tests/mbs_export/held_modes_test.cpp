@@ -4,8 +4,7 @@
 
 #include "bending_beam.hpp"
 #include "linear/dense/eigenmodes.hpp"
-#include "mbs_export/constrained_modes.hpp"
-#include "mbs_export/held_dofs.hpp"
+#include "mbs_export/attachment_dofs.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {

@@ -1,4 +1,4 @@
-#include "mbs_export/interface_modes.hpp"
+#include "mbs_export/response_error.hpp"
 
 #include <gtest/gtest.h>
 

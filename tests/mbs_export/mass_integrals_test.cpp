@@ -1,11 +1,11 @@
-#include "mbs_export/mass_integrals.hpp"
+#include "mbs_export/inertia.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
+#include "mbs_export/free_modes.hpp"
 #include "mbs_export/make_body.hpp"
-#include "mbs_export/rigid_body.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {

@@ -1,16 +1,14 @@
-#include "mbs_export/responses/measured_beside.hpp"
+#include "mbs_export/responses/frequency_responses.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "files/text_file.hpp"
+#include "files/output_file.hpp"
 #include "mbs_export/make_body.hpp"
 #include "mbs_export/measured/measured_functions.hpp"
-#include "mbs_export/responses/response_csv.hpp"
-#include "mbs_export/responses/response_file.hpp"
-#include "mbs_export/responses/response_option_error.hpp"
-#include "mbs_export/responses/universal_responses.hpp"
+#include "mbs_export/responses/response_files.hpp"
+#include "mbs_export/responses/response_options.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "tests/mbs_export/bending_beam.hpp"
 

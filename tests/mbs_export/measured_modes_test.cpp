@@ -7,8 +7,7 @@
 #include <numbers>
 
 #include "mbs_export/make_body.hpp"
-#include "mbs_export/measured/modal_assurance.hpp"
-#include "mbs_export/responses/universal_responses.hpp"
+#include "mbs_export/responses/response_files.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "tests/mbs_export/bending_beam.hpp"
 

@@ -1,4 +1,4 @@
-#include "mbs_export/mode_shift.hpp"
+#include "mbs_export/held_modes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 
 #include "bending_beam.hpp"
 #include "common/eigen_every.hpp"
-#include "mbs_export/constrained_modes.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"
 

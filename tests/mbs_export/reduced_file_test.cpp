@@ -1,4 +1,4 @@
-#include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -10,7 +10,6 @@
 #include "bending_beam.hpp"
 #include "expect_equal.hpp"
 #include "files/seal.hpp"
-#include "mbs_export/files/body_file.hpp"
 #include "mbs_export/make_body.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"

@@ -1,12 +1,11 @@
-#include "mbs_export/responses/response_dofs.hpp"
+#include "mbs_export/responses/frequency_responses.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "mbs_export/responses/frequency_responses.hpp"
-#include "mbs_export/responses/response_option_error.hpp"
+#include "mbs_export/responses/response_options.hpp"
 
 namespace chladni::mbs_export {
 namespace {

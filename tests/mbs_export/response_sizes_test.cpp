@@ -1,14 +1,14 @@
 // Responses whose errors the reduction tells: their sizes, and the choice that is left to a body.
-#include "mbs_export/response_sizes.hpp"
+#include "mbs_export/select_by_tolerance.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <numbers>
 
-#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "mbs_export/make_body.hpp"
-#include "mbs_export/reference_response.hpp"
+#include "mbs_export/response_error.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"
 

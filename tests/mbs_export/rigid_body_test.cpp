@@ -1,4 +1,4 @@
-#include "mbs_export/rigid_body.hpp"
+#include "mbs_export/free_modes.hpp"
 
 #include <gtest/gtest.h>
 

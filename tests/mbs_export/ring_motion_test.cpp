@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "expect_equal.hpp"
-#include "mbs_export/attachment_motion.hpp"
+#include "mbs_export/attachment_dofs.hpp"
 #include "mbs_export/check_body.hpp"
-#include "mbs_export/files/reduced_file.hpp"
-#include "mbs_export/formats/nastran.hpp"
+#include "mbs_export/files/body_files.hpp"
+#include "mbs_export/formats/formats.hpp"
+#include "mbs_export/free_modes.hpp"
 #include "mbs_export/make_body.hpp"
-#include "mbs_export/orthogonalize.hpp"
-#include "mbs_export/rigid_body.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"
 

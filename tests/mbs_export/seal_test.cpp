@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "files/hdf5.hpp"
-#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "tests/files/scratch_folder.hpp"
 
 namespace chladni::mbs_export::hdf5 {

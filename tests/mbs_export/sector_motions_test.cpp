@@ -1,4 +1,4 @@
-#include "mbs_export/sector_motions.hpp"
+#include "mbs_export/reduced_system.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 
 #include "bending_beam.hpp"
 #include "common/eigen_every.hpp"
-#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "mbs_export/make_body.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"

@@ -1,11 +1,10 @@
-#include "mbs_export/stiffening.hpp"
+#include "mbs_export/inertia.hpp"
 
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
 #include "expect_equal.hpp"
-#include "mbs_export/files/body_file.hpp"
-#include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "mbs_export/make_body.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"

@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "expect_equal.hpp"
-#include "mbs_export/files/body_file.hpp"
-#include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "tests/files/scratch_folder.hpp"
 
 namespace chladni::mbs_export {

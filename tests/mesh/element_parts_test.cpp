@@ -1,4 +1,4 @@
-#include "mesh/element_parts.hpp"
+#include "mesh/element_types.hpp"
 
 #include <gtest/gtest.h>
 

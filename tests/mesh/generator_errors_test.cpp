@@ -5,9 +5,9 @@
 #include <string>
 
 #include "common/error.hpp"
-#include "confinement/helper.hpp"
+#include "confinement/helper_process.hpp"
 #include "generated.hpp"
-#include "mesh/rings.hpp"
+#include "mesh/mesh.hpp"
 
 namespace chladni::mesh {
 namespace {

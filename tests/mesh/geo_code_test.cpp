@@ -1,4 +1,4 @@
-#include "mesh/geo_code.hpp"
+#include "mesh/gmsh_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mesh/gmsh/graded_sizes.hpp"
+#include "mesh/gmsh/gmsh.hpp"
 
 #include <gtest/gtest.h>
 

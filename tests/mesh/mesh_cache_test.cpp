@@ -1,4 +1,4 @@
-#include "mesh/mesh_cache.hpp"
+#include "mesh/read_mesh.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 // Meshes that another process hands over, which may be in a stranger's hands.
-#include "mesh/packed_mesh.hpp"
-#include "mesh/packed_options.hpp"
+#include "mesh/mesh_archive.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mesh/repetition.hpp"
+#include "mesh/sectors.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 
 #include "common/error.hpp"
 #include "mesh/generators.hpp"
-#include "mesh/sectors.hpp"
 
 namespace chladni::mesh {
 namespace {

@@ -1,4 +1,4 @@
-#include "mesh/split_quadrilaterals.hpp"
+#include "mesh/mesh_repair.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Averaging couplings, as the assembled system shows them.
-#include "plate/dofs/average_motions.hpp"
+#include "plate/dofs/couplings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 #include "coupled_models.hpp"
 #include "plate/assembly/recovery.hpp"
 #include "plate/dofs/free_motions.hpp"
-#include "plate/dofs/group_shares.hpp"
 
 namespace chladni::plate {
 namespace {

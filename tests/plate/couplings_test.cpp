@@ -1,5 +1,5 @@
 // Links and chains of couplings, and what stands at the nodes that they move.
-#include "plate/dofs/follow_references.hpp"
+#include "plate/dofs/couplings.hpp"
 
 #include <gtest/gtest.h>
 

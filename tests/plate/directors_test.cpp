@@ -1,4 +1,4 @@
-#include "plate/sections/directors.hpp"
+#include "plate/sections/sections.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 
 #include "common/error.hpp"
 #include "coupled_models.hpp"
-#include "plate/assembly/loads.hpp"
+#include "plate/assembly/assemble.hpp"
+#include "plate/dofs/dof_map.hpp"
 #include "plate/dofs/point_elements.hpp"
-#include "plate/dofs/supports.hpp"
 
 namespace chladni::plate {
 namespace {

@@ -1,4 +1,4 @@
-#include "plate/assembly/element_energies.hpp"
+#include "plate/assembly/recovery.hpp"
 
 #include <gtest/gtest.h>
 

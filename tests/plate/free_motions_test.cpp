@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "coupled_models.hpp"
-#include "plate/dofs/supports.hpp"
+#include "plate/dofs/dof_map.hpp"
 
 namespace chladni::plate {
 namespace {

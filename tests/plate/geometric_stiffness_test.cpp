@@ -8,7 +8,7 @@
 #include <functional>
 #include <numbers>
 
-#include "common/petsc_compat.hpp"
+#include "common/petsc.hpp"
 #include "plate/assembly/assemble.hpp"
 #include "small_disc.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/petsc_compat.hpp"
+#include "common/petsc.hpp"
 #include "plate/assembly/assemble.hpp"
 #include "plate/dofs/point_elements.hpp"
 #include "plate/elements/mass_points.hpp"
@@ -45,7 +45,7 @@ struct Fixture {
 };
 
 /// Unit translations, then unit rotations about the axes through the origin, [n x 6].
-petsc::Matrix rigid_motions(const System& system)
+petsc::Matrix rigid_columns(const System& system)
 {
   PetscInt n_local = 0;
   petsc::check(MatGetLocalSize(system.M, &n_local, nullptr));
@@ -107,7 +107,7 @@ TEST(DisplacementProducts, OfRigidMotionsAreTheMomentsOfTheMass)
   const Fixture disc;
   const MassModel model = disc.model();
   const MassMoments moments = mass_moments(model);
-  const petsc::Matrix R = rigid_motions(disc.system);
+  const petsc::Matrix R = rigid_columns(disc.system);
   petsc::Matrix S_R;
   petsc::check(MatMatMult(displacement_product(model, 0, 1), R, MAT_INITIAL_MATRIX,
                           petsc::automatic, S_R.put()));
@@ -145,7 +145,7 @@ TEST(MassMoments, OfRigidDisplacementsAreThoseOfThePositions)
 {
   const Fixture disc;
   const MassMoments moments = mass_moments(disc.model());
-  const Eigen::MatrixXd V = product(moments.displacement, rigid_motions(disc.system));  // [12 x 6]
+  const Eigen::MatrixXd V = product(moments.displacement, rigid_columns(disc.system));  // [12 x 6]
   const double round_off = 1e-14 * moments.mass;
   for (int l = 0; l < 3; ++l) {
     for (int j = 0; j < 3; ++j) {
@@ -196,7 +196,7 @@ TEST(MassMoments, OfTwoPlatesInAFoldAreThoseOfBothPlates)
       const System system = assemble(mesh, structure, dofs, PETSC_COMM_WORLD);
       const MassMoments moments =
           mass_moments(mass_model(mesh, structure, system.dofs, PETSC_COMM_WORLD));
-      const petsc::Matrix R = rigid_motions(system);
+      const petsc::Matrix R = rigid_columns(system);
       petsc::Matrix M_R;
       petsc::check(MatMatMult(system.M, R, MAT_INITIAL_MATRIX, petsc::automatic, M_R.put()));
       EXPECT_NEAR(moments.mass, 1.56, 1e-12) << fold << ", " << order;

@@ -1,4 +1,4 @@
-#include "plate/assembly/loads.hpp"
+#include "plate/assembly/assemble.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "mesh/partition.hpp"
-#include "plate/dofs/supports.hpp"
+#include "plate/dofs/dof_map.hpp"
 #include "small_disc.hpp"
 #include "square_plate.hpp"
 

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "mesh/partition.hpp"
-#include "plate/assembly/loads.hpp"
-#include "plate/dofs/supports.hpp"
+#include "plate/assembly/assemble.hpp"
+#include "plate/dofs/dof_map.hpp"
 #include "square_plate.hpp"
 
 namespace chladni::plate {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "plate/elements/beam_element.hpp"
-#include "plate/sections/section_map.hpp"
+#include "plate/sections/sections.hpp"
 #include "shell_model.hpp"
 
 namespace chladni::plate::testing {

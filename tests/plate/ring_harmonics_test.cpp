@@ -1,5 +1,5 @@
 // A ring in its harmonics, as the assembled system shows it.
-#include "plate/dofs/ring_harmonics.hpp"
+#include "plate/dofs/dof_map.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Thickness and offset that vary, as the assembled system shows them.
-#include "plate/sections/profile.hpp"
+#include "plate/sections/sections.hpp"
 
 #include <gtest/gtest.h>
 

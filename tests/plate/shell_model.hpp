@@ -6,7 +6,7 @@
 
 #include "mesh/mesh.hpp"
 #include "plate/elements/shell_element.hpp"
-#include "plate/sections/directors.hpp"
+#include "plate/sections/sections.hpp"
 
 namespace chladni::plate::testing {
 

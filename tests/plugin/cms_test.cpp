@@ -11,9 +11,9 @@
 #include <sstream>
 #include <string>
 
-#include "common/petsc_compat.hpp"
+#include "common/petsc.hpp"
 #include "linear/kernels/dense_matrices.hpp"
-#include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "tests/linear/chain.hpp"
 
 namespace chladni::reduce {

@@ -10,7 +10,7 @@
 
 #include "linear/dense/dense_solvers.hpp"
 #include "linear/kernels/dense_matrices.hpp"
-#include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "tests/plugin/random_ring.hpp"
 
 namespace chladni::reduce {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "common/petsc_compat.hpp"
+#include "common/petsc.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "tests/linear/matrices.hpp"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "common/petsc_compat.hpp"
+#include "common/petsc.hpp"
 #include "tests/linear/matrices.hpp"
 
 namespace chladni::plugin {

@@ -2,7 +2,7 @@
 #include <slepceps.h>
 
 #include "common/petsc.hpp"
-#include "linear/cholesky/cholesky_types.hpp"
+#include "linear/cholesky/petsc_factor.hpp"
 #include "linear/log_event.hpp"
 #include "plugin/chladni_cms.h"
 

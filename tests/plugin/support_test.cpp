@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "common/all_ranks.hpp"
-#include "common/petsc_compat.hpp"
-#include "mbs_export/files/reduced_file.hpp"
+#include "common/petsc.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "tests/linear/chain.hpp"
 
 namespace chladni {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "linear/cholesky/condition_estimate.hpp"
+#include "linear/cholesky/factorization.hpp"
 #include "linear/cholesky/sylvester.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "reduce/partition.hpp"

@@ -10,10 +10,8 @@
 #include <string>
 
 #include "pencils.hpp"
-#include "reduce/basis_rows.hpp"
 #include "reduce/partition.hpp"
-#include "reduce/project_form.hpp"
-#include "reduce/rigid_constraint_modes.hpp"
+#include "reduce/static_condensation.hpp"
 #include "tests/linear/chain.hpp"
 #include "tests/linear/matrices.hpp"
 

@@ -1,13 +1,12 @@
-#include "reduce/full_responses.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "reduce/harmonic_response.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "reduce/basis_rows.hpp"
+#include "reduce/craig_bampton.hpp"
 #include "reduce/partition.hpp"
-#include "reduce/project_form.hpp"
 #include "tests/linear/chain.hpp"
 
 namespace chladni::reduce {

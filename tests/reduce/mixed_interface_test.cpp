@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "common/index_sets.hpp"
+#include "common/petsc.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "reduce/error_estimates.hpp"
 #include "reduce/partition.hpp"

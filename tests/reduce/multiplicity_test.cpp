@@ -1,5 +1,5 @@
 // Eigenvalues of any multiplicity: block Lanczos beside spectra that are known.
-#include "linear/lanczos/multiplicity.hpp"
+#include "linear/lanczos/block_iteration.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <iostream>
 #include <numbers>
 
-#include "common/petsc_compat.hpp"
+#include "common/petsc.hpp"
 #include "linear/cholesky/factorization.hpp"
 #include "linear/lanczos/block_lanczos.hpp"
 #include "pencils.hpp"

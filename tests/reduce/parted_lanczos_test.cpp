@@ -9,7 +9,7 @@
 
 #include "linear/cholesky/part_solver.hpp"
 #include "linear/kernels/decoupled_rows.hpp"
-#include "reduce/mode_search.hpp"
+#include "reduce/fixed_interface_modes.hpp"
 #include "tests/linear/matrices.hpp"
 
 namespace chladni::reduce {

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "common/index_sets.hpp"
+#include "common/petsc.hpp"
 #include "tests/linear/matrices.hpp"
 
 namespace chladni::reduce {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "linear/kernels/dense_matrices.hpp"
-#include "reduce/held_masters.hpp"
 #include "reduce/memory_forecast.hpp"
+#include "reduce/support.hpp"
 #include "tests/linear/matrices.hpp"
 
 namespace chladni::reduce {

@@ -8,13 +8,12 @@
 #include <numbers>
 #include <random>
 
-#include "common/petsc_compat.hpp"
-#include "linear/cholesky/inverse_form.hpp"
+#include "common/petsc.hpp"
+#include "linear/cholesky/part_solver.hpp"
 #include "linear/dense/dense_solvers.hpp"
-#include "mbs_export/reference_response.hpp"
-#include "mbs_export/response_sizes.hpp"
+#include "mbs_export/response_error.hpp"
+#include "mbs_export/select_by_tolerance.hpp"
 #include "reduce/fixed_interface_modes.hpp"
-#include "reduce/moving_slaves.hpp"
 #include "reduce/residual_forms.hpp"
 #include "reduce/unbalanced_forces.hpp"
 #include "tests/linear/chain.hpp"

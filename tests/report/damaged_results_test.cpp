@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "squeal/brake/radiation.hpp"
-#include "squeal/results/result_file.hpp"
+#include "squeal/results/squeal_results.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
 #include "tests/fuzz/read_results.hpp"
 #include "tests/fuzz/replay.hpp"

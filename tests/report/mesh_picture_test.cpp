@@ -9,12 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "mesh/element_parts.hpp"
+#include "mesh/element_types.hpp"
 #include "mesh/generators.hpp"
-#include "report/fe/mesh_drawing.hpp"
-#include "report/fe/mesh_groups.hpp"
-#include "report/fe/mesh_page.hpp"
-#include "report/fe/mesh_vtu.hpp"
+#include "report/fe/mesh_report.hpp"
 #include "report/fe/vtu.hpp"
 
 namespace chladni::report {

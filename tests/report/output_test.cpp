@@ -1,4 +1,4 @@
-#include "report/output.hpp"
+#include "report/text_table.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,9 +12,7 @@
 
 #include "common/error.hpp"
 #include "report/json.hpp"
-#include "report/page/headline.hpp"
-#include "report/page/squeal_motions.hpp"
-#include "report/quantities.hpp"
+#include "report/page/squeal_page.hpp"
 #include "report/timing.hpp"
 
 namespace chladni::report {

@@ -1,4 +1,4 @@
-#include "report/page/runs.hpp"
+#include "report/page/pages.hpp"
 
 #include <gtest/gtest.h>
 

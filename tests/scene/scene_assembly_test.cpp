@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "scene/changes.hpp"
+#include "scene/scene_text.hpp"
 #include "tests/scene/scene_texts.hpp"
 
 namespace chladni::scene {

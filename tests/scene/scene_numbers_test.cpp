@@ -1,4 +1,4 @@
-#include "scene/scene_numbers.hpp"
+#include "scene/scene_text.hpp"
 
 #include <gtest/gtest.h>
 

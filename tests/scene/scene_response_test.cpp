@@ -1,8 +1,8 @@
 // What `chladni response` reads of a scene.
 #include <gtest/gtest.h>
 
-#include "scene/changes.hpp"
 #include "scene/scene.hpp"
+#include "scene/scene_text.hpp"
 #include "tests/scene/scene_texts.hpp"
 
 namespace chladni::scene {

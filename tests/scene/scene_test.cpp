@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/changes.hpp"
+#include "scene/scene_text.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -10,7 +10,7 @@
 #include <regex>
 #include <sstream>
 
-#include "squeal/analysis_options.hpp"
+#include "squeal/study_options.hpp"
 #include "tests/scene/scene_texts.hpp"
 
 namespace chladni::scene {

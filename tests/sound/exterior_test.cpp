@@ -6,8 +6,8 @@
 #include "common/error.hpp"
 #include "references/sound/exact_fields.hpp"
 #include "references/sound/thesis_disc.hpp"
+#include "sound/air_mesh.hpp"
 #include "sound/field.hpp"
-#include "sound/mesh_air.hpp"
 
 namespace chladni::sound {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "common/error.hpp"
 #include "references/sound/thesis_disc.hpp"
-#include "sound/mesh_air.hpp"
+#include "sound/air_mesh.hpp"
 
 namespace chladni::sound {
 namespace {

@@ -10,7 +10,7 @@
 #include "common/error.hpp"
 #include "squeal/assembly/assembly.hpp"
 #include "squeal/assembly/joints.hpp"
-#include "squeal/friction_table.hpp"
+#include "squeal/friction.hpp"
 
 namespace chladni::squeal {
 namespace {

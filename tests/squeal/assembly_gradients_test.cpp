@@ -14,9 +14,8 @@
 #include "assembly_parts.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "squeal/models/assembly_brake.hpp"
-#include "squeal/models/assembly_numbers.hpp"
-#include "squeal/models/friction_numbers.hpp"
-#include "squeal/stability/gradients.hpp"
+#include "squeal/models/parameters.hpp"
+#include "squeal/stability/sensitivity.hpp"
 
 namespace chladni::squeal {
 namespace {

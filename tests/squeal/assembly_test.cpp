@@ -16,7 +16,6 @@
 #include "common/error.hpp"
 #include "squeal/assembly/face.hpp"
 #include "squeal/assembly/joints.hpp"
-#include "squeal/assembly/node_areas.hpp"
 #include "squeal/models/assembly_brake.hpp"
 #include "tests/squeal/turning_discs.hpp"
 

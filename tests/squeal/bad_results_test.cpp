@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "files/hdf5.hpp"
-#include "squeal/results/result_file.hpp"
+#include "squeal/results/squeal_results.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "version_1_results.hpp"
 

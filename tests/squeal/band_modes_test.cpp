@@ -1,5 +1,5 @@
-#include "squeal/stability/band_modes.hpp"
-#include "linear/dense/orthogonal_factor.hpp"
+#include "linear/dense/dense_solvers.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,12 +11,11 @@
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "source_disc.hpp"
-#include "squeal/analysis_options.hpp"
 #include "squeal/models/flexible_disc.hpp"
-#include "squeal/models/rigid_disc_brake.hpp"
-#include "squeal/models/sliding_brake.hpp"
-#include "squeal/study/analysis_steps.hpp"
-#include "squeal/study/run.hpp"
+#include "squeal/models/rigid_disc.hpp"
+#include "squeal/models/sliding_masses.hpp"
+#include "squeal/study/study.hpp"
+#include "squeal/study_options.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/models/sliding_brake.hpp"
+#include "squeal/models/sliding_masses.hpp"
 #include "squeal/transient/transient.hpp"
 #include "tests/files/scratch_folder.hpp"
 

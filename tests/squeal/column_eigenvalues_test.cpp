@@ -1,5 +1,5 @@
 // Every point is compared with the QR iteration.
-#include "squeal/stability/column_eigenvalues.hpp"
+#include "squeal/stability/stability_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,7 @@
 
 #include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
-#include "squeal/stability/eigenvalue_branches.hpp"
-#include "squeal/stability/eigenvalue_discs.hpp"
-#include "squeal/stability/pole_sum.hpp"
-#include "squeal/stability/stability_map.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 
 namespace chladni::squeal {
 namespace {

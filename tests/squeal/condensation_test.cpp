@@ -10,7 +10,6 @@
 
 #include "assembly_parts.hpp"
 #include "common/error.hpp"
-#include "squeal/condensation/condensation_error.hpp"
 #include "squeal/models/assembly_brake.hpp"
 
 namespace chladni::squeal {

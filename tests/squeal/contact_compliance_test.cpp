@@ -1,16 +1,14 @@
-#include "squeal/brake/contact_compliance.hpp"
+#include "squeal/brake/linear_contact.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/brake/point_shapes.hpp"
-#include "squeal/brake/state_matrix.hpp"
+#include "squeal/brake/pad_system.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/models/flexible_disc.hpp"
-#include "squeal/motion/rotating_disc.hpp"
-#include "squeal/motion/sliding_disc.hpp"
+#include "squeal/motion/disc_motion.hpp"
 #include "squeal/stability/error_budget.hpp"
 #include "squeal/transient/transient.hpp"
 

@@ -1,5 +1,5 @@
 // Two contact planes: each with a ring of its own, or off the middle of one ring.
-#include "squeal/brake/ring_pairs.hpp"
+#include "squeal/brake/pad_system.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,10 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "squeal/brake/pad_system.hpp"
-#include "squeal/motion/rotating_disc.hpp"
-#include "squeal/motion/sliding_disc.hpp"
+#include "squeal/motion/disc_motion.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "squeal/stability/hill.hpp"
 #include "squeal/stability/rotation_stability.hpp"
-#include "squeal/stability/stability.hpp"
 #include "squeal/transient/transient.hpp"
 #include "tests/squeal/linked_rings.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "linear/dense/dense_solvers.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/stability/stability.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 
 namespace chladni::squeal {
 namespace {

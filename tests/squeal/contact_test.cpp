@@ -5,7 +5,6 @@
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/disc.hpp"
 #include "squeal/brake/pad_system.hpp"
-#include "squeal/brake/pads.hpp"
 
 namespace chladni::squeal {
 namespace {

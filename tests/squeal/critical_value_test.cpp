@@ -7,8 +7,7 @@
 #include "common/error.hpp"
 #include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/models/flexible_disc.hpp"
-#include "squeal/models/oscillator.hpp"
-#include "squeal/models/sliding_brake.hpp"
+#include "squeal/models/sliding_masses.hpp"
 #include "squeal/stability/stability_search.hpp"
 #include "tests/squeal/motions_side_by_side.hpp"
 

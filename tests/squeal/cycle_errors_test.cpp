@@ -16,10 +16,8 @@
 #include "references/squeal/analytic_body.hpp"
 #include "source_disc.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
-#include "squeal/cycle/pad_amplitudes.hpp"
-#include "squeal/models/oscillator.hpp"
-#include "squeal/models/rigid_disc_brake.hpp"
-#include "squeal/models/sliding_brake.hpp"
+#include "squeal/models/rigid_disc.hpp"
+#include "squeal/models/sliding_masses.hpp"
 
 namespace chladni::squeal {
 namespace {

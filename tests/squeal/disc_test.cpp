@@ -5,8 +5,7 @@
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/brake/mode_parts.hpp"
-#include "squeal/brake/ring_shapes.hpp"
+#include "squeal/brake/disc_ring.hpp"
 #include "tests/squeal/turning_discs.hpp"
 
 namespace chladni::squeal {

@@ -1,4 +1,4 @@
-#include "squeal/friction_table.hpp"
+#include "squeal/friction.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,7 @@
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/pad_system.hpp"
-#include "squeal/brake/pads.hpp"
-#include "squeal/derivative.hpp"
-#include "squeal/friction.hpp"
+#include "squeal/numerics.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -8,11 +8,10 @@
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/pad_system.hpp"
-#include "squeal/brake/pads.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
-#include "squeal/models/rigid_disc_brake.hpp"
-#include "squeal/motion/sliding_disc.hpp"
-#include "squeal/stability/stability.hpp"
+#include "squeal/models/rigid_disc.hpp"
+#include "squeal/motion/disc_motion.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -1,5 +1,5 @@
-#include "squeal/stability/gradients.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "squeal/stability/sensitivity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/brake/state_matrix.hpp"
-#include "squeal/models/rigid_disc_brake.hpp"
-#include "squeal/models/sliding_brake.hpp"
-#include "squeal/results/result_file.hpp"
-#include "squeal/stability/stability.hpp"
+#include "squeal/brake/linear_contact.hpp"
+#include "squeal/models/rigid_disc.hpp"
+#include "squeal/models/sliding_masses.hpp"
+#include "squeal/results/squeal_results.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "tests/files/scratch_folder.hpp"
 
 namespace chladni::squeal {

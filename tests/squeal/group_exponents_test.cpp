@@ -1,5 +1,5 @@
-#include "squeal/stability/group_exponents.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "squeal/stability/hill.hpp"
 
 #include <gtest/gtest.h>
 

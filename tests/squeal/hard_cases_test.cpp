@@ -7,12 +7,10 @@
 #include "references/squeal/cvode.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
-#include "squeal/motion/rotating_disc.hpp"
-#include "squeal/stability/stability.hpp"
+#include "squeal/motion/disc_motion.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "squeal/transient/integrator_choice.hpp"
-#include "squeal/transient/sticking.hpp"
 #include "squeal/transient/transient.hpp"
-#include "squeal/transient/transient_start.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
+#include "squeal/brake/linear_contact.hpp"
 #include "squeal/brake/pad_system.hpp"
-#include "squeal/brake/state_matrix.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "squeal/stability/rotation_stability.hpp"
-#include "squeal/stability/stability.hpp"
 #include "tests/squeal/turning_discs.hpp"
 
 namespace chladni::squeal {

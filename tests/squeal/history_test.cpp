@@ -5,10 +5,9 @@
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/motion/speed_program.hpp"
+#include "squeal/motion/splitting.hpp"
 #include "squeal/transient/recorder.hpp"
 #include "squeal/transient/transient.hpp"
-#include "squeal/transient/transient_plan.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "common/error.hpp"
-#include "linear/dense/orthogonal_factor.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/brake/rotation_generator.hpp"
+#include "squeal/brake/disc.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -4,7 +4,7 @@
 #include "references/squeal/analytic_body.hpp"
 #include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
-#include "squeal/stability/stability.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "squeal/transient/integrator_choice.hpp"
 #include "squeal/transient/transient.hpp"
 

@@ -10,7 +10,6 @@
 
 #include "reference_branches.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/cycle/branch_parts.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 

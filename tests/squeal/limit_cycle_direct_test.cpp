@@ -7,7 +7,6 @@
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/cycle/cycle_detours.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/transient/transient.hpp"
 

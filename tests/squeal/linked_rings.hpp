@@ -6,7 +6,7 @@
 
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
-#include "squeal/brake/state_matrix.hpp"
+#include "squeal/brake/linear_contact.hpp"
 
 /// Bodies whose rings lie in the faces of a plate, and brakes with pads on them.
 namespace chladni::squeal::test {

@@ -1,11 +1,11 @@
-#include "squeal/stability/mode_sensitivity.hpp"
+#include "squeal/stability/sensitivity.hpp"
 
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "references/squeal/kirchhoff_modes.hpp"
-#include "squeal/stability/stability.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {

@@ -7,11 +7,11 @@
 #include "source_disc.hpp"
 #include "squeal/cycle/limit_cycle_branch.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
-#include "squeal/models/model_brake.hpp"
-#include "squeal/models/rigid_disc_brake.hpp"
-#include "squeal/models/sliding_brake.hpp"
-#include "squeal/stability/stability.hpp"
-#include "squeal/study/run.hpp"
+#include "squeal/models/brake.hpp"
+#include "squeal/models/rigid_disc.hpp"
+#include "squeal/models/sliding_masses.hpp"
+#include "squeal/stability/eigenvalues.hpp"
+#include "squeal/study/study.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -6,12 +6,11 @@
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "source_disc.hpp"
-#include "squeal/models/model_brake.hpp"
-#include "squeal/models/oscillator.hpp"
-#include "squeal/models/rigid_disc_brake.hpp"
-#include "squeal/models/sliding_brake.hpp"
-#include "squeal/stability/stability.hpp"
-#include "squeal/study/run.hpp"
+#include "squeal/models/brake.hpp"
+#include "squeal/models/rigid_disc.hpp"
+#include "squeal/models/sliding_masses.hpp"
+#include "squeal/stability/eigenvalues.hpp"
+#include "squeal/study/study.hpp"
 #include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {

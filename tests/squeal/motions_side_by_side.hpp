@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "squeal/stability/stability.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 
 /// State matrices of motions that know nothing of each other.
 namespace chladni::squeal::test {

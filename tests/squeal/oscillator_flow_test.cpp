@@ -1,4 +1,4 @@
-#include "squeal/motion/oscillator_flow.hpp"
+#include "squeal/motion/splitting.hpp"
 
 #include <gtest/gtest.h>
 

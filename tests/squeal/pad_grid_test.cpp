@@ -9,9 +9,9 @@
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
-#include "squeal/motion/contact_kick.hpp"
+#include "squeal/motion/splitting.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "squeal/stability/rotation_stability.hpp"
-#include "squeal/stability/stability.hpp"
 #include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {

@@ -10,9 +10,8 @@
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
-#include "squeal/motion/sliding_disc.hpp"
-#include "squeal/stability/mode_shapes.hpp"
-#include "squeal/stability/stability.hpp"
+#include "squeal/motion/disc_motion.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {

@@ -14,9 +14,9 @@
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/models/flexible_disc.hpp"
-#include "squeal/models/oscillator.hpp"
-#include "squeal/models/rigid_disc_brake.hpp"
-#include "squeal/stability/eigenvalue_branches.hpp"
+#include "squeal/models/rigid_disc.hpp"
+#include "squeal/models/sliding_masses.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "squeal/stability/unstable_modes.hpp"
 #include "tests/squeal/linked_rings.hpp"
 

@@ -1,4 +1,4 @@
-#include "squeal/stability/period_work.hpp"
+#include "squeal/stability/unstable_modes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,7 @@
 
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/models/flexible_disc.hpp"
-#include "squeal/results/result_file.hpp"
-#include "squeal/stability/unstable_modes.hpp"
+#include "squeal/results/squeal_results.hpp"
 #include "tests/files/scratch_folder.hpp"
 
 namespace chladni::squeal {

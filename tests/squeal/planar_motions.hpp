@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "squeal/motion/autonomous_motion.hpp"
+#include "squeal/motion/motion.hpp"
 
 namespace chladni::squeal::test {
 

@@ -11,8 +11,8 @@
 #include "linear/dense/dense_solvers.hpp"
 #include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
-#include "squeal/brake/state_matrix.hpp"
-#include "squeal/stability/stability.hpp"
+#include "squeal/brake/linear_contact.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 
 namespace chladni::squeal {
 namespace {

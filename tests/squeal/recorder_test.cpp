@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "squeal/transient/decimator.hpp"
-#include "squeal/transient/growth_rate.hpp"
+#include "squeal/transient/resampling.hpp"
+#include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {
 namespace {

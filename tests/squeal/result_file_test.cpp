@@ -1,4 +1,4 @@
-#include "squeal/results/result_file.hpp"
+#include "squeal/results/squeal_results.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include "common/error.hpp"
 #include "files/hdf5.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/study/run.hpp"
+#include "squeal/study/study.hpp"
 #include "tests/mbs_export/damaged_numbers.hpp"
 
 namespace chladni::squeal {

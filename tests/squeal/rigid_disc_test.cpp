@@ -1,5 +1,5 @@
 #include "squeal/models/rigid_disc.hpp"
-#include "squeal/stability/stability.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 
 #include <gtest/gtest.h>
 

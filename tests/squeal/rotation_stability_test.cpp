@@ -4,7 +4,7 @@
 
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
-#include "squeal/stability/stability.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "squeal/transient/transient.hpp"
 #include "tests/squeal/turning_discs.hpp"
 

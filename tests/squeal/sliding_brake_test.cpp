@@ -1,10 +1,10 @@
-#include "squeal/models/sliding_brake.hpp"
+#include "squeal/models/sliding_masses.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "squeal/stability/stability.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 
 namespace chladni::squeal {
 namespace {

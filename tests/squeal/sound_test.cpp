@@ -8,9 +8,9 @@
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/transient/resampler.hpp"
+#include "squeal/transient/resampling.hpp"
 #include "squeal/transient/spectrum.hpp"
-#include "squeal/transient/wav_file.hpp"
+#include "squeal/transient/wav.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -1,4 +1,4 @@
-#include "squeal/transient/spectrogram.hpp"
+#include "squeal/transient/spectrum.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "common/error.hpp"
-#include "squeal/results/result_file.hpp"
+#include "squeal/results/squeal_results.hpp"
 #include "tests/files/scratch_folder.hpp"
 
 namespace chladni::squeal {

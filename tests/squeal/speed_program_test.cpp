@@ -1,4 +1,4 @@
-#include "squeal/motion/speed_program.hpp"
+#include "squeal/motion/splitting.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/stability/stability.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 
 namespace chladni::squeal {
 namespace {

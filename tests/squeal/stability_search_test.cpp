@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/stability/stability.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "tests/squeal/motions_side_by_side.hpp"
 
 namespace chladni::squeal {

@@ -1,5 +1,5 @@
-#include "squeal/stability/stability.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 
 #include <gtest/gtest.h>
 

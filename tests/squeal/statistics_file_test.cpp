@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/error.hpp"
-#include "squeal/results/result_file.hpp"
+#include "squeal/results/squeal_results.hpp"
 #include "tests/files/scratch_folder.hpp"
 
 namespace chladni::squeal {

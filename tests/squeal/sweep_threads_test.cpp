@@ -6,7 +6,7 @@
 
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
-#include "squeal/parallel.hpp"
+#include "squeal/numerics.hpp"
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/stability/stability_map.hpp"
 #include "squeal/transient/transient.hpp"

@@ -8,8 +8,7 @@
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
-#include "squeal/motion/contact_kick.hpp"
-#include "squeal/motion/oscillator_flow.hpp"
+#include "squeal/motion/splitting.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -1,4 +1,4 @@
-#include "squeal/stability/turning_table.hpp"
+#include "squeal/stability/hill_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,12 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "squeal/stability/exponent_branches.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "squeal/stability/hill.hpp"
 #include "squeal/stability/rotation_stability.hpp"
-#include "squeal/stability/stability.hpp"
 #include "squeal/stability/unstable_modes.hpp"
-#include "squeal/study/analysis_steps.hpp"
+#include "squeal/study/study.hpp"
 #include "tests/squeal/turning_discs.hpp"
 
 namespace chladni::squeal {

@@ -1,4 +1,4 @@
-#include "squeal/study/validate.hpp"
+#include "squeal/study/study.hpp"
 
 #include <gtest/gtest.h>
 

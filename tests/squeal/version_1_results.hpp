@@ -1,7 +1,7 @@
 #pragma once
 
 #include "squeal/brake/radiation.hpp"
-#include "squeal/results/results.hpp"
+#include "squeal/results/squeal_results.hpp"
 
 namespace chladni::squeal::test {
 

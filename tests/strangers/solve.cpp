@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/petsc_compat.hpp"
+#include "common/petsc.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 
 namespace chladni::strangers {

@@ -45,16 +45,16 @@ ROOMS = {
 # Faults that change nothing that a test may ask for: file, the line as it is, what becomes of it (None: whatever), and why that
 # is equivalent.
 EQUIVALENT = [
-    ("plate/elements/element_rules.cpp", "const double c = order == 2 ? 0.5 : 0.1;", "const double c = order == 2 ? 0.5 : 0.2;",
+    ("plate/elements/shell_element.cpp", "const double c = order == 2 ? 0.5 : 0.1;", "const double c = order == 2 ? 0.5 : 0.2;",
      "how much of a thick element is integrated less; elements with either number have the same order of convergence"),
-    *(("plate/elements/beam_axes.cpp", "const VectorXd nodes = VectorXd::LinSpaced(n, -1.0, 1.0);", after,
+    *(("plate/elements/beam_element.cpp", "const VectorXd nodes = VectorXd::LinSpaced(n, -1.0, 1.0);", after,
        "an affine change of the parameter of a line, whose tangents keep their directions")
       for after in ("const VectorXd nodes = VectorXd::LinSpaced(n, -2.0, 1.0);", "const VectorXd nodes = VectorXd::LinSpaced(n, -1.0, 2.0);")),
-    ("mbs_export/contact_rings.cpp", "return ring.radius > 0.0 ? std::optional(ring) : std::nullopt;",
+    ("mbs_export/modal_body.cpp", "return ring.radius > 0.0 ? std::optional(ring) : std::nullopt;",
      "return (ring.radius >= 0.0) ? std::optional(ring) : std::nullopt;", "nodes on the axis all have the angle 0, which is refused before"),
-    ("mbs_export/reference_response.cpp", "(omega.array() > 0.0).select(omega.array().max(1e-300).square().inverse(), 0.0);", None,
+    ("mbs_export/response_error.cpp", "(omega.array() > 0.0).select(omega.array().max(1e-300).square().inverse(), 0.0);", None,
      "no frequency is as low: it keeps a value from being infinite that is not taken"),
-    ("files/hdf5_writer.cpp", "const Eigen::Index most = std::max<Eigen::Index>(1, piece / std::max<Eigen::Index>(1, x.cols()));", None,
+    ("files/hdf5.cpp", "const Eigen::Index most = std::max<Eigen::Index>(1, piece / std::max<Eigen::Index>(1, x.cols()));", None,
      "how many rows are written at a time; the file is the same"),
 ]  # fmt: skip
 

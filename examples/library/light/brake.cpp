@@ -3,11 +3,11 @@
 #include <exception>
 #include <numbers>
 
-#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/body_files.hpp"
 #include "squeal/brake/disc.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/stability/stability_search.hpp"
-#include "squeal/study/run.hpp"
+#include "squeal/study/study.hpp"
 
 int main(int argc, char** argv)
 try {

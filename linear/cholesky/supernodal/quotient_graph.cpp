@@ -5,8 +5,8 @@
 #include <span>
 #include <utility>
 
-#include "linear/kernels/fingerprint.hpp"
 #include "linear/kernels/gather.hpp"
+#include "linear/kernels/matrix_graph.hpp"
 
 namespace chladni::linear {
 

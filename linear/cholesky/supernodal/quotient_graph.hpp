@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "common/petsc.hpp"
-#include "linear/kernels/adjacency.hpp"
+#include "linear/kernels/matrix_graph.hpp"
 
 namespace chladni::linear {
 

@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "linear/kernels/gather.hpp"
-#include "linear/kernels/panel_columns.hpp"
-#include "linear/kernels/tile_kernels.hpp"
+#include "linear/kernels/panel_kernels.hpp"
 
 namespace chladni::linear {
 

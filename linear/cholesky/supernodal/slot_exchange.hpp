@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "linear/cholesky/cholesky_factor.hpp"
-#include "linear/cholesky/supernodal/subtrees.hpp"
+#include "linear/cholesky/supernodal/rank_groups.hpp"
 #include "linear/cholesky/supernodal/tiled_columns.hpp"
 
 namespace chladni::linear {

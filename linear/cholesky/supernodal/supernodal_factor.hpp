@@ -8,12 +8,11 @@
 #include "linear/cholesky/cholesky_factor.hpp"
 #include "linear/cholesky/supernodal/assembly_tree.hpp"
 #include "linear/cholesky/supernodal/fronts.hpp"
-#include "linear/cholesky/supernodal/shared_columns.hpp"
+#include "linear/cholesky/supernodal/rank_groups.hpp"
 #include "linear/cholesky/supernodal/shared_fronts.hpp"
 #include "linear/cholesky/supernodal/slot_exchange.hpp"
-#include "linear/cholesky/supernodal/subtrees.hpp"
 #include "linear/cholesky/supernodal/tiled_columns.hpp"
-#include "linear/kernels/aligned_numbers.hpp"
+#include "linear/kernels/storage.hpp"
 
 namespace chladni::linear {
 

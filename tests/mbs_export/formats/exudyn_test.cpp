@@ -1,4 +1,4 @@
-#include "mbs_export/formats/exudyn.hpp"
+#include "mbs_export/formats/formats.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,7 @@
 #include "../version_1.hpp"
 #include "../wheel.hpp"
 #include "files/hdf5.hpp"
-#include "files/hdf5_handle.hpp"
-#include "files/visit_objects.hpp"
+#include "files/hdf5_objects.hpp"
 #include "tests/files/scratch_folder.hpp"
 
 namespace chladni::mbs_export::formats {

@@ -1,4 +1,4 @@
-#include "mbs_export/formats/fmu_description.hpp"
+#include "mbs_export/formats/fmu_archive.hpp"
 
 #include <gtest/gtest.h>
 

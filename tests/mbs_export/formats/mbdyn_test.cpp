@@ -1,4 +1,4 @@
-#include "mbs_export/formats/mbdyn.hpp"
+#include "mbs_export/formats/formats.hpp"
 
 #include <gtest/gtest.h>
 

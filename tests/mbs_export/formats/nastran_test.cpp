@@ -1,4 +1,4 @@
-#include "mbs_export/formats/nastran.hpp"
+#include "mbs_export/formats/formats.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,7 @@
 #include <sstream>
 
 #include "../wheel.hpp"
-#include "files/text_file.hpp"
-#include "mbs_export/formats/op4.hpp"
+#include "files/output_file.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "two_nodes.hpp"
 

@@ -1,4 +1,4 @@
-#include "mbs_export/formats/sid.hpp"
+#include "mbs_export/formats/formats.hpp"
 
 #include <gtest/gtest.h>
 

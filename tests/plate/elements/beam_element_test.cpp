@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "common/error.hpp"
-#include "plate/elements/beam_axes.hpp"
 #include "sample_elements.hpp"
 #include "tests/plate/beam_lines.hpp"
 

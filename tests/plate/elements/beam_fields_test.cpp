@@ -1,4 +1,4 @@
-#include "plate/elements/beam_fields.hpp"
+#include "plate/elements/beam_element.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "plate/elements/beam_axes.hpp"
 #include "plate/elements/geometric_stiffness.hpp"
 #include "sample_elements.hpp"
 #include "tests/plate/beam_lines.hpp"

@@ -7,8 +7,6 @@
 #include <cmath>
 
 #include "common/error.hpp"
-#include "plate/elements/element_rules.hpp"
-#include "plate/elements/plane_element.hpp"
 #include "sample_elements.hpp"
 
 namespace chladni::plate {

@@ -1,0 +1,261 @@
+#include "cases/scene_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "cases/ranks.hpp"
+#include "common/petsc.hpp"
+#include "mesh/generators.hpp"
+#include "mesh/mesh_archive.hpp"
+#include "report/progress.hpp"
+
+namespace chladni::cases {
+
+namespace {
+
+/// The mesh of the first rank on all ranks.
+mesh::Mesh broadcast(const mesh::Mesh& mesh)
+{
+  if (n_ranks() == 1) return mesh;
+  std::vector<char> bytes;
+  if (rank() == 0) {
+    Packer packer;
+    pack(packer, mesh);
+    bytes = packer.bytes();
+  }
+  std::size_t size = bytes.size();
+  MPI_Bcast(&size, sizeof(size), MPI_BYTE, 0, PETSC_COMM_WORLD);
+  bytes.resize(size);
+  constexpr std::size_t piece = std::size_t(1) << 30;  // an MPI count is an int
+  for (std::size_t at = 0; at < size; at += piece) {
+    const auto count = static_cast<int>(std::min(piece, size - at));
+    MPI_Bcast(bytes.data() + at, count, MPI_BYTE, 0, PETSC_COMM_WORLD);
+  }
+  Unpacker unpacker(bytes);
+  return mesh::unpack_mesh(unpacker);
+}
+
+}  // namespace
+
+mesh::Mesh mesh_scene(const scene::Scene& scene)
+{
+  return mesh::generate(scene.mesh);
+}
+
+void check_groups(const scene::Scene& scene, const mesh::Mesh& mesh)
+{
+  std::vector<std::string> names;
+  for (const mesh::Group& group : mesh.groups) names.push_back(group.name);
+  scene::check_groups(scene, names);
+}
+
+mesh::Mesh mesh_on_all_ranks(const scene::Scene& scene, const ChooseMesh& choose)
+{
+  mesh::Mesh mesh;
+  on_first_rank([&] {
+    mesh = mesh_scene(scene);
+    for (const std::string& note : mesh.notes) report::tell_note(note);
+    check_groups(scene, mesh);
+    if (choose) mesh = choose(std::move(mesh));
+  });
+  return broadcast(mesh);
+}
+
+namespace {
+
+constexpr double most_of_geo = 4.0;  // times the sizes that it says
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+bool is_geo(const mesh::MeshOptions& mesh)
+{
+  return mesh.file && mesh::mesh_source(*mesh.file) == mesh::MeshSource::geo;
+}
+
+bool is_step(const mesh::MeshOptions& mesh)
+{
+  return mesh.file && mesh::mesh_source(*mesh.file) == mesh::MeshSource::step;
+}
+
+/// Visits the options of the generator that has surfaces; none of a beam.
+template <class Visit>
+void of_plane_generator(const mesh::MeshOptions& mesh, const Visit& visit)
+{
+  if (mesh.annulus) visit(*mesh.annulus);
+  if (mesh.hat_disc) visit(*mesh.hat_disc);
+  if (mesh.pad) visit(*mesh.pad);
+  if (mesh.rectangle) visit(*mesh.rectangle);
+}
+
+/// The smallest of the lengths of a profile; of a formula nothing is known.
+double least_value(const plate::Profile& profile)
+{
+  return profile.values.empty() ? infinite : std::ranges::min(profile.values);
+}
+
+/// Across the body between edges, m.
+double width_of(const mesh::MeshOptions& mesh)
+{
+  if (mesh.annulus) return mesh.annulus->outer_radius - mesh.annulus->inner_radius;
+  if (mesh.hat_disc) return mesh.hat_disc->outer_radius - mesh.hat_disc->wall_radius;
+  if (mesh.rectangle) return std::min(mesh.rectangle->length, mesh.rectangle->width);
+  if (mesh.pad) {
+    const mesh::PadOptions& pad = *mesh.pad;
+    return std::min(pad.outer_radius - pad.inner_radius,
+                    0.5 * (pad.inner_radius + pad.outer_radius) * pad.angle);
+  }
+  if (!mesh.beam) return infinite;
+  const auto& [x, y] = std::pair(mesh.beam->start, mesh.beam->end);
+  return std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
+}
+
+/// Structured elements have a corner at each node of a ring, and are at most four times as long in
+/// the one direction as in the other.
+double largest_beside_rings(const mesh::MeshOptions& mesh)
+{
+  constexpr double most = 3.5;
+  double largest = infinite;
+  const auto of = [&](const auto& disc) {
+    if (disc.pattern != mesh::Pattern::structured) return;
+    for (const mesh::RingOptions& ring : disc.rings)
+      largest = std::min(largest, most * 2.0 * std::numbers::pi * disc.outer_radius / ring.nodes);
+  };
+  if (mesh.annulus) of(*mesh.annulus);
+  if (mesh.hat_disc) of(*mesh.hat_disc);
+  return largest;
+}
+
+/// Of bending waves in the shell or beam where they are shortest, m.
+double wavelength(const scene::Scene& scene, double omega)
+{
+  double least = infinite;
+  const auto of = [&](double bending, double mass) {
+    least =
+        std::min(least, 2.0 * std::numbers::pi * std::pow(bending / (mass * omega * omega), 0.25));
+  };
+  for (const plate::ShellSection& shell : scene.sections) {
+    const double t = least_value(shell.thickness);
+    if (t == infinite || shell.material.density <= 0.0) continue;
+    const plate::Material& m = shell.material;
+    of(m.young * t * t * t / (12.0 * (1.0 - m.poisson * m.poisson)), m.density * t);
+  }
+  for (const plate::BeamSection& beam : scene.beams) {
+    if (beam.material.density <= 0.0) continue;
+    of(beam.material.young * std::min(beam.I_y, beam.I_z), beam.material.density * beam.area);
+  }
+  return least;
+}
+
+}  // namespace
+
+bool has_size(const mesh::MeshOptions& mesh)
+{
+  return !mesh.file || is_geo(mesh) || is_step(mesh);
+}
+
+void set_size(mesh::MeshOptions& mesh, const MeshSize& size)
+{
+  const auto set = [&](auto& options) {
+    options->element_size = size.size;
+    options->element_order = size.order;
+    options->edge_row = size.edge_row;
+  };
+  if (mesh.annulus) set(mesh.annulus);
+  if (mesh.hat_disc) set(mesh.hat_disc);
+  if (mesh.pad) set(mesh.pad);
+  if (mesh.rectangle) set(mesh.rectangle);
+  if (mesh.beam) {
+    mesh.beam->element_size = size.size;
+    mesh.beam->element_order = size.order;
+  }
+  if (!mesh.file) return;
+  mesh.element_order = size.order;
+  mesh.sizes = size.places;
+  if (is_step(mesh)) mesh.element_size = size.size;
+  if (is_geo(mesh)) mesh.size_factor = size.size;
+}
+
+int order_of(const mesh::MeshOptions& mesh)
+{
+  constexpr int usual = 3;
+  int order = mesh.beam ? mesh.beam->element_order : mesh.element_order.value_or(usual);
+  of_plane_generator(mesh, [&](const auto& options) { order = options.element_order; });
+  return order;
+}
+
+std::optional<double> edge_row_of(const mesh::MeshOptions& mesh)
+{
+  std::optional<double> row;
+  of_plane_generator(mesh, [&](const auto& options) { row = options.edge_row; });
+  return row;
+}
+
+std::vector<int> other_orders(const mesh::MeshOptions& mesh)
+{
+  bool has_triangles = !mesh.beam;
+  of_plane_generator(mesh, [&](const auto& options) {
+    has_triangles = options.pattern != mesh::Pattern::structured;
+  });
+  std::vector<int> orders{2, 3, 4};
+  if (has_triangles) orders.pop_back();
+  std::erase(orders, order_of(mesh));
+  return orders;
+}
+
+bool takes_local_sizes(const mesh::MeshOptions& mesh)
+{
+  return is_geo(mesh) || is_step(mesh);
+}
+
+bool takes_edge_row(const mesh::MeshOptions& mesh, double width)
+{
+  constexpr double share = 0.25;  // of the body, for two rows
+  return !mesh.file && !mesh.beam && width < share * width_of(mesh);
+}
+
+double largest_size(const mesh::MeshOptions& mesh)
+{
+  constexpr double of_width = 0.5;
+  if (is_geo(mesh)) return most_of_geo;
+  return std::min(of_width * width_of(mesh), largest_beside_rings(mesh));
+}
+
+double rounded(double size)
+{
+  const double digit = std::pow(10.0, std::floor(std::log10(size)) - 1.0);
+  return std::round(size / digit) * digit;
+}
+
+std::string described(const MeshSize& size)
+{
+  std::string text =
+      fmt::format("element_order = {}, element_size = {:.2g}", size.order, size.size);
+  if (size.edge_row) text += fmt::format(", edge_row = {:.3g}", *size.edge_row);
+  if (!size.places.empty()) {
+    const double least = std::ranges::min(size.places, {}, &mesh::SizeAt::size).size;
+    text += fmt::format(", elements down to {:.2g} m where the error is", least);
+  }
+  return text;
+}
+
+double first_size(const scene::Scene& scene, double omega)
+{
+  constexpr double elements_of_wave = 3.0;
+  const double largest = largest_size(scene.mesh);
+  return is_geo(scene.mesh) ? 1.0 : std::min(wavelength(scene, omega) / elements_of_wave, largest);
+}
+
+double least_thickness(const scene::Scene& scene)
+{
+  double least = infinite;
+  for (const plate::ShellSection& shell : scene.sections)
+    least = std::min(least, least_value(shell.thickness));
+  return least;
+}
+
+}  // namespace chladni::cases

@@ -1,7 +1,0 @@
-#include "linear/dense/dense_solvers.hpp"
-
-namespace Eigen {
-
-template class JacobiSVD<MatrixXd>;
-
-}  // namespace Eigen

@@ -1,0 +1,633 @@
+#include "mesh/decks/nastran.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <numbers>
+#include <set>
+#include <unordered_map>
+
+#include "common/error.hpp"
+#include "mesh/decks/deck.hpp"
+#include "mesh/mesh.hpp"
+
+namespace chladni::mesh {
+
+namespace {
+
+constexpr const char* no_offset =
+    "the element stands off its nodes; a scene has one `offset` for each section";
+constexpr const char* no_own_thickness =
+    "a thickness of its own; a scene has it in the section, as a table or a formula";
+
+/// Of what becomes of the deck, by card.
+class Reader {
+ public:
+  explicit Reader(std::span<const Card> cards) : cards_(cards), systems_(nastran_systems(cards)) {}
+
+  Deck read()
+  {
+    // What lists nodes by ranges means those that there are.
+    for (const Card& card : cards_)
+      if (card.name() == "GRID") grid(card);
+    for (const Card& card : cards_) {
+      if (card.name() == "GRID") continue;
+      const auto known = readers().find(card.name());
+      if (known != readers().end())
+        known->second(*this, card);
+      else
+        refuse_unknown(card);
+    }
+    couple();
+    add_missing_middles(deck_);
+    for (const auto& [name, n] : left_out_)
+      deck_.notes.push_back(fmt::format("{} {} are left out: they are no part of a mesh", n, name));
+    return std::move(deck_);
+  }
+
+ private:
+  using ReadCard = std::function<void(Reader&, const Card&)>;
+  using Readers = std::unordered_map<std::string, ReadCard>;
+
+  /// Every card that is known. Sections and materials are `nastran_declarations`'.
+  static const Readers& readers()
+  {
+    static const Readers all = make_readers();
+    return all;
+  }
+
+  static Readers make_readers()
+  {
+    Readers all{{"SET1", &Reader::set1},    {"SPC", &Reader::held},
+                {"SPC1", &Reader::held},    {"PARAM", &Reader::parameter},
+                {"CONM2", &Reader::mass},   {"CELAS1", &Reader::spring},
+                {"CELAS2", &Reader::spring}};
+    for (const char* name : {"RBE2", "RBE3", "RBAR"}) all.emplace(name, &Reader::rigid);
+    for (const char* name : {"CQUAD4", "CTRIA3"}) all.emplace(name, &Reader::flat_shell);
+    for (const char* name : {"CQUAD8", "CTRIA6"}) all.emplace(name, &Reader::curved_shell);
+    for (const char* name : {"CBAR", "CBEAM"}) all.emplace(name, &Reader::beam);
+    for (const char* name : {"CORD2R", "CORD2C", "CORD2S", "MAT1", "PSHELL", "PBAR", "PBARL",
+                             "PBEAM", "PELAS", "CASE", "GRDSET", "SPCADD", "MPC", "MPCADD"})
+      all.emplace(name, [](Reader&, const Card&) {});
+    for (const char* name : {"EIGR", "EIGRL", "FORCE", "MOMENT", "PLOAD", "PLOAD2", "PLOAD4",
+                             "GRAV", "LOAD", "TEMP", "TEMPD"})
+      all.emplace(name, [](Reader& reader, const Card& card) { ++reader.left_out_[card.name()]; });
+    return all;
+  }
+
+  [[noreturn]] static void refuse_unknown(const Card& card)
+  {
+    for (const char* solid : {"CTETRA", "CHEXA", "CPENTA", "CPYRAM", "CHEXA8", "CHEXA20"}) {
+      if (card.name() != solid) continue;
+      card.refuse(
+          "a solid element; Chladni has shells and beams: mesh the mid-surface with CQUAD4, "
+          "CQUAD8, "
+          "CTRIA3 or CTRIA6, or reduce the solids in the program that they come from");
+    }
+    card.refuse("this card is not known; take it out if the model is the same without it");
+  }
+
+  void grid(const Card& card)
+  {
+    card.expect_no_more_than(8);
+    const std::int64_t number = node(card, 1), system = card.integer_or(2, "CP", 0);
+    const auto found = systems_.find(system);
+    if (found == systems_.end())
+      card.refuse(fmt::format("there is no coordinate system {}", system));
+    const auto x = basic_position(found->second, card.vector_or_zero(3, "a coordinate"));
+    if (!deck_.nodes.emplace(number, x).second) card.refuse("is there twice");
+    const std::vector<int> held = held_by_grid(card);
+    if (!held.empty()) add_to(name_of_held_by_grid(held), {number});
+  }
+
+  static std::int64_t node(const Card& card, std::size_t i)
+  {
+    const std::int64_t number = card.integer(i, "number of a node");
+    if (number == 0) card.refuse(fmt::format("field {} needs the number of a node", i + 1));
+    return number;
+  }
+
+  static std::vector<std::int64_t> nodes(const Card& card, std::size_t n)
+  {
+    std::vector<std::int64_t> numbers;
+    for (std::size_t i = 0; i < n; ++i) numbers.push_back(node(card, 3 + i));
+    return numbers;
+  }
+
+  void add_to(const std::string& group, const std::vector<std::int64_t>& numbers)
+  {
+    std::vector<std::int64_t>& all =
+        deck_.groups[static_cast<std::size_t>(group_index(deck_, group, 0))].nodes;
+    all.insert(all.end(), numbers.begin(), numbers.end());
+  }
+
+  /// Numbers of shells and beams, of rigid elements, of masses and of springs are their own.
+  std::int64_t element_number(const Card& card)
+  {
+    const std::string kind = card.name().starts_with('R')       ? "rigid"
+                             : card.name().starts_with("CELAS") ? "spring"
+                             : card.name() == "CONM2"           ? "mass"
+                                                                : "shell or beam";
+    const std::int64_t number = card.integer(1, "EID");
+    if (number == 0 || !element_numbers_.emplace(kind, number).second)
+      card.refuse("its number is that of another element, or 0");
+    return number;
+  }
+
+  int property_group(const Card& card, const char* kind, int dimension)
+  {
+    const std::int64_t property = card.integer_or(2, "PID", card.integer(1, "EID"));
+    return group_index(deck_, fmt::format("{}_{}", kind, property), dimension);
+  }
+
+  /// @param first  field behind the nodes: THETA, and ZOFFS behind it
+  static void check_shell(const Card& card, std::size_t first, std::size_t thicknesses,
+                          std::size_t n_nodes)
+  {
+    if (card.real_or(first + 1, "ZOFFS", 0.0) != 0.0) card.refuse(no_offset);
+    card.expect_blank(thicknesses, thicknesses + n_nodes - 1, no_own_thickness);
+  }
+
+  void flat_shell(const Card& card)
+  {
+    const std::size_t n = card.name() == "CQUAD4" ? 4 : 3;
+    // CQUAD4: EID PID G1 G2 G3 G4 THETA ZOFFS, blank TFLAG T1 ..; CTRIA3: EID PID G1 G2 G3 THETA
+    // ZOFFS, 3 blank, TFLAG T1 ..
+    check_shell(card, 3 + n, 11, n);
+    card.expect_no_more_than(10 + n);
+    add_surface(card, nodes(card, n));
+  }
+
+  void add_surface(const Card& card, const std::vector<std::int64_t>& of_card)
+  {
+    deck_.elements.push_back(
+        surface_element(element_number(card), of_card, property_group(card, "pshell", 2)));
+    deck_.elements.back().place = card.place();
+  }
+
+  void curved_shell(const Card& card)
+  {
+    const bool is_triangle = card.name() == "CTRIA6";
+    const std::size_t n = is_triangle ? 6 : 8;
+    // CQUAD8: .. G8, T1 .. T4, THETA ZOFFS; CTRIA6: .. G6, THETA ZOFFS T1 T2 T3
+    const std::size_t theta = is_triangle ? 9 : 15;
+    check_shell(card, theta, 11, is_triangle ? 3 : 4);
+    card.expect_no_more_than(is_triangle ? 14 : 17);
+    // Of the nodes in the middle of edges a card may leave out any.
+    std::vector<std::int64_t> of_card = nodes(card, n / 2);
+    for (std::size_t i = n / 2; i < n; ++i)
+      of_card.push_back(card.integer_or(3 + i, "number of a node", 0));
+    add_surface(card, of_card);
+  }
+
+  void beam(const Card& card)
+  {
+    card.expect_blank(9, 10, "released components have no counterpart in a scene");
+    for (std::size_t i = 11; i <= 16; ++i)
+      if (card.real_or(i, "an offset", 0.0) != 0.0) card.refuse(no_offset);
+    card.expect_no_more_than(16);
+    const char* kind = card.name() == "CBAR" ? "pbar" : "pbeam";
+    deck_.elements.push_back({.number = element_number(card),
+                              .shape = Shape::line,
+                              .order = 1,
+                              .nodes = nodes(card, 2),
+                              .group = property_group(card, kind, 1),
+                              .place = card.place()});
+  }
+
+  void rigid(const Card& card) { element_number(card); }
+
+  void couple()
+  {
+    for (const RigidElement& element : rigid_elements(cards_, deck_)) {
+      add_to(element.group, element.nodes);
+      deck_.couplings.push_back({.entry = fmt::format("{}: {} {}", element.card->place(),
+                                                      element.card->name(), element.card->field(1)),
+                                 .reference = element.reference,
+                                 .group = element.group,
+                                 .averages = element.averages()});
+    }
+    add_leaders(deck_);
+  }
+
+  void mass(const Card& card)
+  {
+    element_number(card);
+    add_to(name_of_mass(card), {node(card, 2)});
+  }
+
+  void spring(const Card& card)
+  {
+    element_number(card);
+    const auto ends = nodes_of_spring(card);
+    for (const int i : {0, 1})
+      if (ends[std::size_t(i)] != 0) add_to(name_of_spring(card, i + 1), {ends[std::size_t(i)]});
+  }
+
+  void held(const Card& card)
+  {
+    for (const HeldNodes& of_card : held_nodes(card, deck_))
+      add_to(name_of_held(of_card.set, of_card.components), of_card.nodes);
+  }
+
+  void set1(const Card& card)
+  {
+    add_to(fmt::format("set_{}", card.integer(1, "SID")), listed_nodes(card, 2, deck_));
+  }
+
+  void parameter(const Card& card)
+  {
+    if (card.field(1) == "WTMASS" && card.real(2, "WTMASS") != 1.0) {
+      card.refuse(
+          "densities stand in another unit than forces and lengths; scale them in the deck, and "
+          "take this card out");
+    }
+    ++left_out_[card.name()];
+  }
+
+  std::span<const Card> cards_;
+  DeckSystems systems_;
+  Deck deck_;
+  std::set<std::pair<std::string, std::int64_t>> element_numbers_;
+  std::map<std::string, int> left_out_;
+};
+
+}  // namespace
+
+Deck nastran_deck(std::span<const Card> cards)
+{
+  return Reader(cards).read();
+}
+
+namespace {
+
+// Of DeckSystem::kind.
+constexpr char rectangular = 'R', cylindrical = 'C', spherical = 'S';
+
+bool is_system(const Card& card)
+{
+  return card.name() == "CORD2R" || card.name() == "CORD2C" || card.name() == "CORD2S";
+}
+
+/// Systems that are found one after the other, each after the one that it refers to.
+class Finder {
+ public:
+  explicit Finder(std::span<const Card> cards)
+  {
+    found_[0] = {.origin = {}, .axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, .kind = rectangular};
+    for (const Card& card : cards) {
+      if (!is_system(card)) continue;
+      if (!cards_.emplace(card.integer(1, "CID"), &card).second) card.refuse("is there twice");
+    }
+  }
+
+  DeckSystems all()
+  {
+    for (const auto& [number, card] : cards_) {
+      if (number == 0) card->refuse("0 is the basic system");
+      find(number, *card);
+    }
+    return found_;
+  }
+
+ private:
+  void find(std::int64_t number, const Card& asking)
+  {
+    if (found_.contains(number)) return;
+    const auto card = cards_.find(number);
+    if (card == cards_.end())
+      asking.refuse(fmt::format("there is no coordinate system {}", number));
+    if (!under_way_.insert(number).second) card->second->refuse("refers to itself");
+    const std::int64_t reference = card->second->integer_or(2, "RID", 0);
+    find(reference, *card->second);
+    found_[number] = made(*card->second, found_[reference]);
+  }
+
+  /// A, the origin; B on the z axis; C in the x-z plane.
+  static DeckSystem made(const Card& card, const DeckSystem& reference)
+  {
+    card.expect_no_more_than(11);
+    const auto point = [&](std::size_t first) {
+      return basic_position(reference, card.vector_or_zero(first, "a point"));
+    };
+    const Vector A = point(3), z = minus(point(6), A), in_plane = minus(point(9), A);
+    const Vector y = cross(z, in_plane);
+    if (!(norm(y) > 1e-9 * norm(z) * norm(in_plane)))
+      card.refuse("its three points are on one line");
+    return {.origin = A, .axes = {unit(cross(y, z)), unit(y), unit(z)}, .kind = card.name().back()};
+  }
+
+  std::map<std::int64_t, const Card*> cards_;
+  std::set<std::int64_t> under_way_;
+  DeckSystems found_;
+};
+
+}  // namespace
+
+DeckSystems nastran_systems(std::span<const Card> cards)
+{
+  return Finder(cards).all();
+}
+
+std::array<double, 3> basic_position(const DeckSystem& system, const std::array<double, 3>& x)
+{
+  Vector local = x;
+  constexpr double degree = std::numbers::pi / 180.0;
+  if (system.kind == cylindrical) {
+    const double theta = x[1] * degree;
+    local = {x[0] * std::cos(theta), x[0] * std::sin(theta), x[2]};
+  }
+  if (system.kind == spherical) {  // theta from the z axis, phi about it
+    const double theta = x[1] * degree, phi = x[2] * degree, r = x[0] * std::sin(theta);
+    local = {r * std::cos(phi), r * std::sin(phi), x[0] * std::cos(theta)};
+  }
+  Vector position = system.origin;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t c = 0; c < 3; ++c) position[c] += local[axis] * system.axes[axis][c];
+  return position;
+}
+
+namespace {
+
+std::string digits(const std::vector<int>& components)
+{
+  std::string text;
+  for (const int c : components) text += static_cast<char>('1' + c);
+  return text;
+}
+
+std::string name_of_rigid(const char* kind, const Card& card)
+{
+  return fmt::format("{}_{}", kind, card.integer(1, "EID"));
+}
+
+RigidElement rbe2(const Card& card)
+{
+  if (card.components(3).size() != 6)
+    card.refuse("holds not all components 123456, as a scene's rigid coupling does");
+  RigidElement element{.group = name_of_rigid("rbe2", card),
+                       .reference = card.integer(2, "GN"),
+                       .nodes = {},
+                       .card = &card};
+  // Behind the nodes may stand ALPHA, a coefficient of thermal expansion, with a point.
+  for (std::size_t i = 4; i <= card.n_fields(); ++i) {
+    if (!card.has(i)) continue;
+    if (card.field(i).find('.') != std::string_view::npos) {
+      card.expect_no_more_than(i);
+      break;
+    }
+    if (card.field(i) == "THRU") card.refuse("RBE2 has no THRU; write the nodes out");
+    element.nodes.push_back(card.integer(i, "number of a node"));
+  }
+  if (element.nodes.empty()) card.refuse("has no nodes that follow");
+  return element;
+}
+
+/// One weight and its components, then nodes; UM and ALPHA behind have no counterpart.
+RigidElement rbe3(const Card& card)
+{
+  card.expect_blank(2, 2, "this field of RBE3 is blank");
+  if (card.components(4).size() != 6)
+    card.refuse("averages not all components 123456 of its reference node");
+  if (card.components(6) != std::vector<int>{0, 1, 2})
+    card.refuse("averages other components than 123 of its nodes; a scene's coupling these alone");
+  RigidElement element{.group = name_of_rigid("rbe3", card),
+                       .reference = card.integer(3, "REFGRID"),
+                       .nodes = {},
+                       .card = &card};
+  card.real(5, "a weight");
+  for (std::size_t i = 7; i <= card.n_fields(); ++i) {
+    if (!card.has(i)) continue;
+    if (card.field(i).find('.') != std::string_view::npos)
+      card.refuse("has several weights; a scene weighs nodes by the area that each stands for");
+    element.nodes.push_back(card.integer(i, "number of a node"));
+  }
+  if (element.nodes.empty()) card.refuse("has no nodes to average");
+  return element;
+}
+
+/// A rigid bar: one end has all independent components, the other all dependent ones.
+RigidElement rbar(const Card& card)
+{
+  const auto holds_all = [&](std::size_t i) { return card.components(i).size() == 6; };
+  const std::int64_t a = card.integer(2, "GA"), b = card.integer(3, "GB");
+  const bool leads_a =
+      holds_all(4) && !card.has(5) && !card.has(6) && (!card.has(7) || holds_all(7));
+  const bool leads_b =
+      holds_all(5) && !card.has(4) && !card.has(7) && (!card.has(6) || holds_all(6));
+  if (!leads_a && !leads_b) {
+    card.refuse(
+        "is not wholly rigid: a scene's link has the six independent components 123456 at one end, "
+        "and all dependent ones at the other");
+  }
+  return {.group = name_of_rigid("rbar", card),
+          .reference = leads_a ? a : b,
+          .nodes = {leads_a ? b : a},
+          .card = &card};
+}
+
+/// The equations of a pair of nodes.
+struct Link {
+  const Card* card;
+  std::set<int> components;
+};
+
+/// Equations of two terms by the node that follows and the one that it follows.
+using Links = std::map<std::pair<std::int64_t, std::int64_t>, Link>;
+
+void add_equation(Links& links, const Card& card)
+{
+  card.expect_blank(8, std::max<std::size_t>(8, card.n_fields()),
+                    "has more than two terms; a scene has no equations but rigid links");
+  const auto c = card.components(3);
+  if (c.size() != 1 || card.components(6) != c)
+    card.refuse("joins two components; a scene's rigid link joins each one with itself");
+  if (card.real(4, "A1") != -card.real(7, "A2") || card.real(4, "A1") == 0.0)
+    card.refuse("its coefficients are not A and -A, as in a rigid link");
+  const std::pair nodes{card.integer(2, "G1"), card.integer(5, "G2")};
+  links.try_emplace(nodes, Link{.card = &card, .components = {}})
+      .first->second.components.insert(c.front());
+}
+
+/// The nodes stand at one place.
+bool are_together(const Deck& deck, std::int64_t a, std::int64_t b)
+{
+  const auto first = deck.nodes.find(a), second = deck.nodes.find(b);
+  if (first == deck.nodes.end() || second == deck.nodes.end()) return false;
+  constexpr double same_place = 1e-6;
+  return norm(minus(first->second, second->second)) <= same_place * norm(first->second);
+}
+
+std::vector<RigidElement> links_of_equations(std::span<const Card> cards, const Deck& deck)
+{
+  const std::set<std::int64_t> sets = chosen_sets(cards, "MPC").sets;
+  Links links;
+  for (const Card& card : cards)
+    if (card.name() == "MPC" && sets.contains(card.integer(1, "SID"))) add_equation(links, card);
+  std::vector<RigidElement> elements;
+  for (const auto& [nodes, link] : links) {
+    if (link.components.size() != 6) {
+      link.card->refuse(fmt::format(
+          "joins {} of 6 components of the nodes {} and {}; a scene's rigid link joins all of them",
+          link.components.size(), nodes.first, nodes.second));
+    }
+    if (!are_together(deck, nodes.first, nodes.second)) {
+      link.card->refuse(fmt::format(
+          "its nodes {} and {} are apart, where equal displacements and rotations are no rigid "
+          "link; take RBE2 or RBAR",
+          nodes.first, nodes.second));
+    }
+    elements.push_back({.group = fmt::format("mpc_{}_{}", link.card->field(1), nodes.first),
+                        .reference = nodes.second,
+                        .nodes = {nodes.first},
+                        .card = link.card});
+  }
+  return elements;
+}
+
+/// The numbers of the sets of the bulk data, by the cards that define them.
+std::set<std::int64_t> defined_sets(std::span<const Card> cards, const std::string& word)
+{
+  std::set<std::int64_t> sets;
+  for (const Card& card : cards)
+    if (card.name() == word || (word == "SPC" && card.name() == "SPC1"))
+      sets.insert(card.integer(1, "SID"));
+  return sets;
+}
+
+/// The sets that SPCADD or MPCADD of this number joins, else the set of this number.
+std::set<std::int64_t> joined_sets(std::span<const Card> cards, const std::string& word,
+                                   std::int64_t number)
+{
+  for (const Card& card : cards) {
+    if (card.name() != word + "ADD" || card.integer(1, "SID") != number) continue;
+    std::set<std::int64_t> sets;
+    for (const NumberRange& range : card.ranges(2, "number of a set")) {
+      if (range.from != range.to) card.refuse("has no THRU; write the sets out");
+      sets.insert(range.from);
+    }
+    return sets;
+  }
+  return {number};
+}
+
+std::string listed(const std::set<std::int64_t>& numbers)
+{
+  return fmt::format("{}", fmt::join(numbers, ", "));
+}
+
+/// Without a choice there must be one set, or an SPCADD of all.
+std::set<std::int64_t> only_set(std::span<const Card> cards, const std::string& word,
+                                const std::set<std::int64_t>& defined)
+{
+  if (defined.size() <= 1) return defined;
+  for (const Card& card : cards)
+    if (card.name() == word + "ADD" && joined_sets(cards, word, card.integer(1, "SID")) == defined)
+      return defined;
+  std::int64_t first = 0;
+  for (const Card& card : cards) {
+    if (card.name() != word && !(word == "SPC" && card.name() == "SPC1")) continue;
+    const std::int64_t set = card.integer(1, "SID");
+    if (first != 0 && set != first) {
+      card.refuse(
+          fmt::format("belongs to a second set; say {} = ... before BEGIN BULK, or keep only the "
+                      "set that the analysis uses",
+                      word));
+    }
+    first = set;
+  }
+  return defined;
+}
+
+}  // namespace
+
+ChosenSets chosen_sets(std::span<const Card> cards, const std::string& word)
+{
+  const std::set<std::int64_t> defined = defined_sets(cards, word);
+  const auto choice = std::ranges::find_if(
+      cards, [&](const Card& card) { return card.name() == "CASE" && card.field(1) == word; });
+  ChosenSets chosen;
+  if (choice == cards.end() || !choice->has(2)) {
+    chosen.sets = only_set(cards, word, defined);
+    if (choice != cards.end() && !chosen.sets.empty()) {
+      chosen.notes.push_back(
+          fmt::format("case control chooses no {}; taken is the only set {} of the bulk data: take "
+                      "it out of the scene if the body is free of it",
+                      word, listed(chosen.sets)));
+    }
+    return chosen;
+  }
+  chosen.sets = joined_sets(cards, word, choice->integer(2, "number of a set"));
+  for (const std::int64_t set : chosen.sets)
+    if (!defined.contains(set)) choice->refuse(fmt::format("there is no {} {}", word, set));
+  std::set<std::int64_t> others;
+  std::ranges::set_difference(defined, chosen.sets, std::inserter(others, others.end()));
+  if (!others.empty()) {
+    chosen.notes.push_back(fmt::format("{} of the set {} are left out: case control chooses {}",
+                                       word, listed(others), choice->field(2)));
+  }
+  return chosen;
+}
+
+std::vector<int> held_by_grid(const Card& card)
+{
+  return card.field(7) == "0" ? std::vector<int>{} : card.components(7);
+}
+
+std::vector<std::int64_t> listed_nodes(const Card& card, std::size_t first, const Deck& deck)
+{
+  std::vector<std::int64_t> nodes;
+  for (const NumberRange& range : card.ranges(first, "number of a node")) {
+    if (range.from == range.to) nodes.push_back(range.from);
+    for (auto node = deck.nodes.lower_bound(range.from);
+         range.from < range.to && node != deck.nodes.end() && node->first <= range.to; ++node)
+      if ((node->first - range.from) % range.step == 0) nodes.push_back(node->first);
+  }
+  return nodes;
+}
+
+std::vector<HeldNodes> held_nodes(const Card& card, const Deck& deck)
+{
+  const std::int64_t set = card.integer(1, "SID");
+  if (card.name() == "SPC1")
+    return {{.set = set, .components = card.components(2), .nodes = listed_nodes(card, 3, deck)}};
+  card.expect_no_more_than(7);
+  std::vector<HeldNodes> held;
+  for (const std::size_t first : {std::size_t{2}, std::size_t{5}}) {
+    if (!card.has(first)) continue;
+    if (card.real_or(first + 2, "a displacement", 0.0) != 0.0)
+      card.refuse("prescribes a displacement; a scene's support holds at zero only");
+    held.push_back({.set = set,
+                    .components = card.components(first + 1),
+                    .nodes = {card.integer(first, "number of a node")}});
+  }
+  return held;
+}
+
+std::string name_of_held(std::int64_t set, const std::vector<int>& components)
+{
+  return fmt::format("spc_{}_{}", set, digits(components));
+}
+
+std::string name_of_held_by_grid(const std::vector<int>& components)
+{
+  return "ps_" + digits(components);
+}
+
+std::vector<RigidElement> rigid_elements(std::span<const Card> cards, const Deck& deck)
+{
+  std::vector<RigidElement> elements;
+  for (const Card& card : cards) {
+    if (card.name() == "RBE2") elements.push_back(rbe2(card));
+    if (card.name() == "RBE3") elements.push_back(rbe3(card));
+    if (card.name() == "RBAR") elements.push_back(rbar(card));
+  }
+  std::ranges::move(links_of_equations(cards, deck), std::back_inserter(elements));
+  return elements;
+}
+
+}  // namespace chladni::mesh

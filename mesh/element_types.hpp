@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace chladni::mesh {
+
+/// Four places in the lattice of an element. A triangle repeats its last place, a line its last
+/// place twice.
+using LatticeCell = std::array<int, 4>;
+
+/// The cells that an element of the block is drawn by.
+/// @param step  width of a cell in lattice intervals: the order of the block gives one cell with
+///              the corners of the element, 1 gives all cells of its lattice
+std::vector<LatticeCell> lattice_cells(const ElementBlock& block, int step);
+
+/// The nodes of each edge of an element, in order from end to end.
+std::vector<std::vector<int>> edges_of(const ElementBlock& block, int element);
+
+/// The element edges with all their nodes in the group. An edge between two elements is returned
+/// once.
+std::vector<std::vector<int>> edges_in(const Mesh& mesh, const Group& group);
+
+/// The lattice places of the nodes in the order of VTK: corners, edges, inner nodes. Up to order 2
+/// most other formats have the same order.
+/// @param order  1 to 4
+std::vector<int> corners_first(Shape shape, int order);
+
+/// Derivatives of the shape functions of an element at some points.
+struct ShapeDerivatives {
+  int n_nodes;
+  std::vector<double> first, second;  ///< [n_points x n_nodes], d N_j / d xi or eta at point i
+
+  int n_points() const { return static_cast<int>(first.size()) / n_nodes; }
+};
+
+/// The derivatives of the complete Lagrange basis on the equidistant lattice of a triangle or
+/// quadrilateral at its own nodes. Parent coordinates are in [0, 1].
+ShapeDerivatives node_derivatives(Shape shape, int order);
+
+/// The same at the points of the full integration of the element.
+ShapeDerivatives gauss_derivatives(Shape shape, int order);
+
+/// The tangents (a_1, a_2) of an element at one of the points.
+std::array<Vector, 2> tangents(const Mesh& mesh, std::span<const int> nodes,
+                               const ShapeDerivatives& derivatives, int point);
+
+/// An edge of a surface element at one of its nodes.
+struct EdgeAtNode {
+  int next, other;  ///< neighbours along the edge, the lower first; at its end -1 for the other
+  Vector along, inward;  ///< unit vectors: towards `next`, and square to that into the element
+};
+
+/// A surface element at one of its nodes.
+struct FaceAtNode {
+  Vector normal;                  ///< of length 1
+  double angle;                   ///< rad, between its edges; pi at a node inside an edge
+  std::vector<EdgeAtNode> edges;  ///< two at a corner, one inside an edge
+};
+
+/// An element at one of its nodes.
+/// @param place        of the node in the lattice of the element
+/// @param derivatives  `node_derivatives` of the block
+FaceAtNode face_at_node(const Mesh& mesh, const ElementBlock& block, int element, int place,
+                        const ShapeDerivatives& derivatives);
+
+/// The angle between an element and the continuation of its neighbour over their edge, rad: 0 where
+/// the surface goes on, pi where one lies on the other.
+/// @param a, b  `EdgeAtNode::inward` of both
+double fold_angle(const Vector& a, const Vector& b);
+
+}  // namespace chladni::mesh

@@ -1,0 +1,588 @@
+#include "plate/dofs/couplings.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <Eigen/Dense>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <vector>
+
+#include "common/error.hpp"
+#include "mesh/element_types.hpp"
+#include "plate/elements/interpolation.hpp"
+#include "plate/sections/sections.hpp"
+
+namespace chladni::plate {
+
+using Eigen::Index, Eigen::Matrix3d, Eigen::MatrixXd, Eigen::Vector3d;
+
+namespace {
+
+/// Whether the group goes on in the next sectors, all around the axis.
+bool closes_around_axis(const mesh::Mesh& mesh, const mesh::Group& group)
+{
+  const auto has = [&](int node) {
+    return std::ranges::find(group.nodes, node) != group.nodes.end();
+  };
+  return std::ranges::any_of(mesh.sectors.pairs,
+                             [&](const auto& pair) { return has(pair[0]) && has(pair[1]); });
+}
+
+std::array<double, 3> centre(const mesh::Mesh& mesh, const mesh::Group& group)
+{
+  std::array<double, 3> sum{};
+  for (const int node : group.nodes)
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += mesh.positions[node][c];
+  for (double& s : sum) s /= static_cast<double>(group.nodes.size());
+  if (closes_around_axis(mesh, group)) return {0.0, 0.0, sum[2]};
+  return sum;
+}
+
+double squared_distance(const std::array<double, 3>& a, const std::array<double, 3>& b)
+{
+  double sum = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) sum += (a[c] - b[c]) * (a[c] - b[c]);
+  return sum;
+}
+
+int nearest_node(const mesh::Mesh& mesh, const mesh::Group& group, int node)
+{
+  int nearest = -1;
+  double least = std::numeric_limits<double>::max();
+  for (const int candidate : group.nodes) {
+    const double distance = squared_distance(mesh.positions[candidate], mesh.positions[node]);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = candidate;
+  }
+  return nearest;
+}
+
+/// What each node follows directly, and through which coupling.
+class Following {
+ public:
+  Following(const mesh::Mesh& mesh, std::span<const Coupling> couplings)
+      : mesh_(mesh),
+        couplings_(couplings),
+        nodes_{.positions = mesh.positions,
+               .references = std::vector<int>(mesh.n_nodes(), -1),
+               .names_followed = std::vector<std::string>(mesh.n_nodes()),
+               .reference_names = {}},
+        coupling_(mesh.n_nodes(), -1)
+  {}
+
+  /// Of all couplings, before any of them is followed.
+  void add_reference_nodes();
+  void add(int index);
+  CoupledNodes follow_chains() &&;
+
+ private:
+  void check(const Coupling& coupling) const;
+  void check_held() const;
+  bool is_coupling(const std::string& name) const
+  {
+    return std::ranges::find(couplings_, name, &Coupling::name) != couplings_.end();
+  }
+  void follow_one_node(int index);
+  void add_link(int index);
+  void follow(int node, int parent, int index);
+
+  const mesh::Mesh& mesh_;
+  std::span<const Coupling> couplings_;
+  CoupledNodes nodes_;
+  std::vector<int> coupling_;  ///< of each node that follows another one
+};
+
+void Following::check(const Coupling& coupling) const
+{
+  for (const std::string& group : {coupling.group, coupling.to}) {
+    if (group.empty() || (group == coupling.to && is_coupling(group))) continue;
+    if (mesh::find_group(mesh_, group).nodes.empty())
+      throw Error(fmt::format("{}: group \"{}\" has no nodes", describe(coupling), group));
+  }
+  if (!coupling.has_reference_node()) return;
+  const bool used =
+      std::ranges::find(mesh_.groups, coupling.name, &mesh::Group::name) != mesh_.groups.end();
+  if (used || nodes_.reference_node(coupling.name)) {
+    throw Error(
+        fmt::format("coupling \"{}\": this name is already used; choose another", coupling.name));
+  }
+}
+
+void Following::add_reference_nodes()
+{
+  for (const Coupling& coupling : couplings_) {
+    check(coupling);
+    if (!coupling.has_reference_node()) continue;
+    const mesh::Group& group = mesh::find_group(mesh_, coupling.group);
+    nodes_.positions.push_back(coupling.at ? *coupling.at : centre(mesh_, group));
+    nodes_.references.push_back(-1);
+    nodes_.names_followed.emplace_back();
+    nodes_.reference_names.push_back(coupling.name);
+  }
+}
+
+void Following::follow(int node, int parent, int index)
+{
+  if (coupling_[node] >= 0) {
+    throw Error(fmt::format("node {} depends on two couplings: {} and {}; take it out of one group",
+                            mesh_.node_numbers[node], describe(couplings_[coupling_[node]]),
+                            describe(couplings_[index])));
+  }
+  const Coupling& coupling = couplings_[index];
+  coupling_[node] = index;
+  nodes_.references[node] = parent;
+  nodes_.names_followed[node] = coupling.has_reference_node() ? coupling.name : coupling.to;
+}
+
+void Following::follow_one_node(int index)
+{
+  const Coupling& coupling = couplings_[index];
+  const std::vector<int> leaders = nodes_.named_nodes(mesh_, coupling.to);
+  if (leaders.size() != 1) {
+    throw Error(fmt::format("{}: \"{}\" has {} nodes; a rigid body follows one, or a coupling",
+                            describe(coupling), coupling.to, leaders.size()));
+  }
+  for (const int node : mesh::find_group(mesh_, coupling.group).nodes) {
+    if (node == leaders.front()) {
+      throw Error(fmt::format("{}: node {} belongs to both groups", describe(coupling),
+                              mesh_.node_numbers[node]));
+    }
+    follow(node, leaders.front(), index);
+  }
+}
+
+void Following::add_link(int index)
+{
+  const Coupling& link = couplings_[index];
+  const mesh::Group& to = mesh::find_group(mesh_, link.to);
+  std::vector<int> partner_of(mesh_.n_nodes(), -1);
+  for (const int node : mesh::find_group(mesh_, link.group).nodes) {
+    const int nearest = nearest_node(mesh_, to, node);
+    if (nearest == node) {
+      throw Error(fmt::format("{}: node {} belongs to both groups", describe(link),
+                              mesh_.node_numbers[node]));
+    }
+    if (partner_of[nearest] >= 0) {
+      throw Error(fmt::format(
+          "{}: nodes {} and {} are both nearest to node {}; the nodes of the two groups must pair",
+          describe(link), mesh_.node_numbers[partner_of[nearest]], mesh_.node_numbers[node],
+          mesh_.node_numbers[nearest]));
+    }
+    partner_of[nearest] = node;
+    follow(node, nearest, index);
+  }
+}
+
+void Following::add(int index)
+{
+  const Coupling& coupling = couplings_[index];
+  if (coupling.kind == CouplingKind::link) return add_link(index);
+  if (!coupling.has_reference_node()) return follow_one_node(index);
+  if (coupling.kind == CouplingKind::averaging) return;
+  for (const int node : mesh::find_group(mesh_, coupling.group).nodes)
+    follow(node, nodes_.reference_node(coupling.name).value(), index);
+}
+
+/// Nothing gives stiffness to a reference node that nodes of no element alone follow.
+void Following::check_held() const
+{
+  std::vector<bool> is_held(std::size_t(nodes_.n_nodes()), false);
+  for (const mesh::ElementBlock& block : mesh_.blocks)
+    for (const int node : block.nodes)
+      if (nodes_.is_dependent(node)) is_held[std::size_t(nodes_.reference(node))] = true;
+  for (const Coupling& coupling : couplings_) {
+    if (coupling.kind != CouplingKind::rigid || !coupling.has_reference_node()) continue;
+    if (is_held[std::size_t(nodes_.reference_node(coupling.name).value())]) continue;
+    throw Error(fmt::format("{}: no node of \"{}\" belongs to an element", describe(coupling),
+                            coupling.group));
+  }
+}
+
+/// A rigid body on a rigid body is one on the last of the chain.
+CoupledNodes Following::follow_chains() &&
+{
+  const std::vector<int> parent = nodes_.references;
+  for (int node = 0; node < mesh_.n_nodes(); ++node) {
+    if (parent[node] < 0) continue;
+    int end = parent[node];
+    int n_links = 1;
+    while (parent[end] >= 0 && n_links <= mesh_.n_nodes()) {
+      end = parent[end];
+      ++n_links;
+    }
+    if (parent[end] >= 0) {
+      throw Error(fmt::format("node {} follows a circle of nodes, {} and {}; take one of them out",
+                              mesh_.node_numbers[node], describe(couplings_[coupling_[end]]),
+                              describe(couplings_[coupling_[parent[end]]])));
+    }
+    nodes_.references[node] = end;
+  }
+  check_held();
+  return std::move(nodes_);
+}
+
+}  // namespace
+
+std::optional<int> CoupledNodes::reference_node(const std::string& name) const
+{
+  const auto it = std::ranges::find(reference_names, name);
+  if (it == reference_names.end()) return std::nullopt;
+  return n_mesh_nodes() + static_cast<int>(it - reference_names.begin());
+}
+
+std::vector<int> CoupledNodes::named_nodes(const mesh::Mesh& mesh, const std::string& name) const
+{
+  if (const auto reference = reference_node(name)) return {*reference};
+  const auto group = std::ranges::find(mesh.groups, name, &mesh::Group::name);
+  if (group != mesh.groups.end()) return group->nodes;
+  std::vector<std::string> names = reference_names;
+  for (const mesh::Group& g : mesh.groups) names.push_back(g.name);
+  throw Error(
+      fmt::format("\"{}\" is neither a group or ring of the mesh nor a coupling; there are: {}",
+                  name, fmt::join(names, ", ")));
+}
+
+std::string describe(const Coupling& coupling)
+{
+  return coupling.has_reference_node()
+             ? fmt::format("coupling \"{}\"", coupling.name)
+             : fmt::format("link of \"{}\" to \"{}\"", coupling.group, coupling.to);
+}
+
+CoupledNodes follow_references(const mesh::Mesh& mesh, std::span<const Coupling> couplings)
+{
+  Following following(mesh, couplings);
+  following.add_reference_nodes();
+  for (int i = 0; i < std::ssize(couplings); ++i) following.add(i);
+  return std::move(following).follow_chains();
+}
+
+namespace {
+
+constexpr int nowhere = -1;
+
+/// The rank that numbers each node. A reference node goes to the lowest rank among its dependents,
+/// that of an averaging coupling nowhere, since its DOFs stand at its group.
+std::vector<int> numbering_ranks(const CoupledNodes& nodes, std::span<const Coupling> couplings,
+                                 std::span<const int> owners, int n_ranks)
+{
+  std::vector<int> ranks(owners.begin(), owners.end());
+  ranks.resize(nodes.n_nodes(), n_ranks - 1);
+  for (int node = 0; node < nodes.n_mesh_nodes(); ++node) {
+    const int reference = nodes.reference(node);
+    if (reference < 0) continue;
+    ranks[node] = nowhere;
+    if (reference < nodes.n_mesh_nodes()) continue;
+    ranks[reference] = std::min(ranks[reference], owners[node]);
+  }
+  for (const Coupling& coupling : couplings) {
+    if (coupling.kind != CouplingKind::averaging) continue;
+    ranks[nodes.reference_node(coupling.name).value()] = nowhere;
+  }
+  return ranks;
+}
+
+}  // namespace
+
+NumberedNodes number_nodes(CoupledNodes coupled, std::span<const Coupling> couplings,
+                           std::span<const int> owners, int n_ranks)
+{
+  const std::vector<int> ranks = numbering_ranks(coupled, couplings, owners, n_ranks);
+  NumberedNodes nodes{std::move(coupled), std::vector<int>(ranks.size(), -1), {}};
+  int next = 0;
+  for (int rank = 0; rank < n_ranks; ++rank) {
+    nodes.first_numbers.push_back(next);
+    for (std::size_t node = 0; node < ranks.size(); ++node)
+      if (ranks[node] == rank) nodes.numbers[node] = next++;
+  }
+  nodes.first_numbers.push_back(next);
+  return nodes;
+}
+
+namespace {
+
+constexpr double no_rotation = 1e-9;  // of the largest pivot
+
+/// The blocks of a row of six equations, by active number.
+using Blocks = std::map<int, Matrix6d>;
+
+/// The motion of the reference node as the mean of its group: A q.
+/// @param shares  of the nodes of the group, their weights
+Blocks mean_motion(const NodeMotions& motions, const std::map<int, double>& shares, int reference)
+{
+  double sum = 0.0;
+  Vector3d centre = Vector3d::Zero();
+  for (const auto& [node, share] : shares) {
+    sum += share;
+    centre += share * motions.position(node);
+  }
+  centre /= sum;
+  Matrix3d J = Matrix3d::Zero();
+  for (const auto& [node, share] : shares) {
+    const Matrix3d r = cross_matrix(motions.position(node) - centre);
+    J -= share / sum * r * r;
+  }
+  const Matrix3d J_inverse = J.completeOrthogonalDecomposition().pseudoInverse();
+  const Matrix6d to_reference = rigid_arm(motions.position(reference) - centre);
+  Blocks A;
+  for (const auto& [node, share] : shares) {
+    const double w = share / sum;
+    Matrix6d of_node = Matrix6d::Zero();
+    of_node.topLeftCorner<3, 3>() = w * Matrix3d::Identity();
+    of_node.bottomLeftCorner<3, 3>() =
+        w * J_inverse * cross_matrix(motions.position(node) - centre);
+    for (const MotionTerm& term : motions.motion(node))
+      A.try_emplace(term.number, Matrix6d::Zero()).first->second += to_reference * of_node * term.T;
+  }
+  return A;
+}
+
+/// The six columns of A that are solved for: DOFs, ascending by pivoting, and their block inverted.
+struct Pivots {
+  std::array<int, 6> dof;
+  Matrix6d inverse;
+};
+
+/// Rows of rotation are scaled by the size of the group, so that all are lengths.
+Pivots choose_pivots(const Blocks& A, double length, const Coupling& coupling)
+{
+  MatrixXd columns = MatrixXd::Zero(6, 3 * static_cast<Index>(A.size()));
+  std::vector<int> dof;
+  for (const auto& [number, block] : A) {
+    for (int c = 0; c < 3; ++c) {  // displacements only
+      columns.col(std::ssize(dof)) = block.col(c);
+      dof.push_back(6 * number + c);
+    }
+  }
+  columns.bottomRows<3>() *= length;
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
+  const Eigen::VectorXd pivots = qr.matrixR().diagonal().cwiseAbs();
+  if (pivots.size() < 6 || pivots[5] < no_rotation * pivots[0]) {
+    throw Error(fmt::format(
+        "{}: the nodes of \"{}\" lie on one line or are too few; their mean has no rotation about "
+        "every axis",
+        describe(coupling), coupling.group));
+  }
+  Pivots chosen;
+  Matrix6d P;
+  for (int k = 0; k < 6; ++k) {
+    const Index column = qr.colsPermutation().indices()[k];
+    chosen.dof[k] = dof[column];
+    P.col(k) = columns.col(column);
+  }
+  P.bottomRows<3>() /= length;
+  chosen.inverse = P.inverse();
+  return chosen;
+}
+
+/// The motion of the reference node: its components stand at the pivots.
+CombinedMotion reference_motion(const Pivots& pivots)
+{
+  Blocks T;
+  for (int k = 0; k < 6; ++k) {
+    const auto [number, component] = std::pair(pivots.dof[k] / 6, pivots.dof[k] % 6);
+    T.try_emplace(number, Matrix6d::Zero()).first->second(k, component) = 1.0;
+  }
+  CombinedMotion motion{.followed = {}, .terms = {}, .dof = pivots.dof};
+  for (const auto& [number, block] : T) motion.terms.push_back({number, block});
+  return motion;
+}
+
+/// The motion of a node that holds pivots: those displacements are P^-1 (u_ref - A_rest q_rest).
+CombinedMotion pivot_node_motion(int number, const Blocks& A, const Pivots& pivots)
+{
+  CombinedMotion motion{.followed = {}, .terms = {}, .dof = {}};
+  for (int c = 0; c < 6; ++c) motion.dof[c] = 6 * number + c;
+  Blocks T;
+  T[number] = Matrix6d::Identity();
+  for (int k = 0; k < 6; ++k) {
+    if (pivots.dof[k] / 6 != number) continue;
+    const int component = pivots.dof[k] % 6;
+    motion.dof[component] = -1;
+    for (const auto& [other, block] : A) {
+      Eigen::Matrix<double, 1, 6> row = -pivots.inverse.row(k) * block;
+      for (int l = 0; l < 6; ++l)  // where pivots stood there is now the reference node
+        if (pivots.dof[l] / 6 == other) row[pivots.dof[l] % 6] = pivots.inverse(k, l);
+      T.try_emplace(other, Matrix6d::Zero()).first->second.row(component) = row;
+    }
+  }
+  for (const auto& [other, block] : T) motion.terms.push_back({other, block});
+  return motion;
+}
+
+double size_of(const NodeMotions& motions, const std::vector<int>& nodes, int reference)
+{
+  double size = 0.0;
+  for (const int node : nodes)
+    size = std::max(size, (motions.position(node) - motions.position(reference)).norm());
+  return size > 0.0 ? size : 1.0;
+}
+
+/// The mean of a group must not move its own nodes, nor those of another one.
+void refuse_followers(const NodeMotions& motions, const mesh::Mesh& mesh, const Coupling& coupling)
+{
+  for (const int node : mesh::find_group(mesh, coupling.group).nodes) {
+    const int followed = motions.reference(node);
+    if (followed < motions.n_mesh_nodes() || motions.number(followed) >= 0) continue;
+    throw Error(fmt::format(
+        "{}: node {} of its group follows the mean \"{}\"; take it out of one of both groups",
+        describe(coupling), mesh.node_numbers[node], motions.reference_name(followed)));
+  }
+}
+
+/// Numbers of one group must not be in another average.
+void claim(const Blocks& A, std::map<int, int>& claimed, int index,
+           std::span<const Coupling> couplings)
+{
+  for (const auto& [number, block] : A) {
+    const auto [it, is_new] = claimed.emplace(number, index);
+    if (is_new || it->second == index) continue;
+    throw Error(fmt::format("{} and {} average nodes in common; take them out of one group",
+                            describe(couplings[it->second]), describe(couplings[index])));
+  }
+}
+
+}  // namespace
+
+Matrix3d cross_matrix(const Vector3d& a)
+{
+  Matrix3d A;
+  A << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return A;
+}
+
+Matrix6d rigid_arm(const Vector3d& arm)
+{
+  Matrix6d T = Matrix6d::Identity();
+  T.topRightCorner<3, 3>() = cross_matrix(arm).transpose();  // theta x arm
+  return T;
+}
+
+std::vector<MotionTerm> NodeMotions::motion(int node) const
+{
+  const int end = is_dependent(node) ? reference(node) : node;
+  const auto it = combined.find(end);
+  std::vector<MotionTerm> terms;
+  if (it != combined.end())
+    terms = it->second.terms;
+  else
+    terms.push_back({.number = number(end), .T = Matrix6d::Identity()});
+  if (end == node) return terms;
+  const Matrix6d T = rigid_arm(arm(node));
+  for (MotionTerm& term : terms) term.T = T * term.T;
+  return terms;
+}
+
+const std::string& NodeMotions::followed(int node) const
+{
+  const auto it = combined.find(node);
+  return it == combined.end() ? names_followed[node] : it->second.followed;
+}
+
+NodeMotions average_motions(const mesh::Mesh& mesh, std::span<const Coupling> couplings,
+                            NumberedNodes nodes)
+{
+  NodeMotions motions{std::move(nodes), {}};
+  std::map<int, int> claimed;
+  std::vector<int> node_of(motions.n_active(), -1);
+  for (int node = 0; node < motions.n_nodes(); ++node)
+    if (motions.number(node) >= 0) node_of[motions.number(node)] = node;
+  for (int i = 0; i < std::ssize(couplings); ++i) {
+    if (couplings[i].kind != CouplingKind::averaging) continue;
+    const std::vector<int>& group = mesh::find_group(mesh, couplings[i].group).nodes;
+    const int reference = motions.reference_node(couplings[i].name).value();
+    refuse_followers(motions, mesh, couplings[i]);
+    const Blocks A = mean_motion(motions, group_shares(mesh, couplings[i].group), reference);
+    claim(A, claimed, i, couplings);
+    const Pivots pivots = choose_pivots(A, size_of(motions, group, reference), couplings[i]);
+    motions.combined.emplace(reference, reference_motion(pivots));
+    for (const int dof : pivots.dof) {
+      const int node = node_of[dof / 6];
+      if (motions.combined.contains(node)) continue;
+      CombinedMotion motion = pivot_node_motion(dof / 6, A, pivots);
+      motion.followed = couplings[i].name;
+      motions.combined.emplace(node, std::move(motion));
+    }
+  }
+  return motions;
+}
+
+namespace {
+
+/// int N_i ds along one edge.
+Eigen::VectorXd shares_of_edge(const mesh::Mesh& mesh, const std::vector<int>& edge)
+{
+  const auto p = static_cast<int>(edge.size()) - 1;
+  const GaussRule gauss = gauss_legendre(p + 2);
+  const Eigen::VectorXd ends = Eigen::VectorXd::LinSpaced(2, -1.0, 1.0);
+  const Points points =
+      tensor_points(gauss.x, ends.head(1));  // the lower edge of the parent square
+  const Basis basis = lagrange_basis(mesh::Shape::quadrilateral, p, points);
+  Eigen::MatrixX3d x(p + 1, 3);
+  for (int i = 0; i <= p; ++i) x.row(i) = Eigen::RowVector3d(mesh.positions[edge[i]].data());
+  const Eigen::MatrixX3d tangents = basis.N_xi.leftCols(p + 1) * x;
+  const Eigen::VectorXd lengths = gauss.w.cwiseProduct(tangents.rowwise().norm());
+  return basis.N.leftCols(p + 1).transpose() * lengths;
+}
+
+/// int N_i dA of one element.
+Eigen::VectorXd shares_of_element(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
+                                  int element)
+{
+  const Points points = gauss_points(block.shape, block.order + 2);
+  const Basis basis = lagrange_basis(block.shape, block.order, points);
+  const NodeVectors x = element_positions(mesh, block, element);
+  const NodeVectors a_1 = basis.N_xi * x;
+  const NodeVectors a_2 = basis.N_eta * x;
+  Eigen::VectorXd areas(points.size());
+  for (Eigen::Index q = 0; q < points.size(); ++q)
+    areas[q] = points.weight[q] * a_1.row(q).cross(a_2.row(q)).norm();
+  return basis.N.transpose() * areas;
+}
+
+std::map<int, double> surface_shares(const mesh::Mesh& mesh, const mesh::Group& group)
+{
+  const auto index = static_cast<int>(&group - mesh.groups.data());
+  std::map<int, double> shares;
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (block.shape == mesh::Shape::line) continue;
+    for (int e = 0; e < block.n_elements(); ++e) {
+      if (block.group[e] != index) continue;
+      const Eigen::VectorXd of_element = shares_of_element(mesh, block, e);
+      for (Eigen::Index i = 0; i < of_element.size(); ++i)
+        shares[block.element_nodes(e)[i]] += of_element[i];
+    }
+  }
+  return shares;
+}
+
+}  // namespace
+
+std::map<int, double> edge_shares(const mesh::Mesh& mesh, const std::string& group)
+{
+  std::map<int, double> shares;
+  for (const std::vector<int>& edge : mesh::edges_in(mesh, mesh::find_group(mesh, group))) {
+    const Eigen::VectorXd of_edge = shares_of_edge(mesh, edge);
+    for (std::size_t i = 0; i < edge.size(); ++i)
+      shares[edge[i]] += of_edge[static_cast<Eigen::Index>(i)];
+  }
+  return shares;
+}
+
+std::map<int, double> group_shares(const mesh::Mesh& mesh, const std::string& name)
+{
+  const mesh::Group& group = mesh::find_group(mesh, name);
+  std::map<int, double> shares =
+      group.dimension == 2 ? surface_shares(mesh, group) : edge_shares(mesh, name);
+  const auto has_share = [&](int node) { return shares.contains(node); };
+  if (std::ranges::all_of(group.nodes, has_share)) return shares;
+  shares.clear();  // nodes without the edges between them
+  for (const int node : group.nodes) shares[node] = 1.0;
+  return shares;
+}
+
+}  // namespace chladni::plate

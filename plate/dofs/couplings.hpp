@@ -1,0 +1,130 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "plate/plate_options.hpp"
+
+namespace chladni::plate {
+
+/// The nodes of the mesh, followed by a reference node for each rigid and averaging coupling. A
+/// dependent node has no DOFs of its own: it follows its reference, which is the reference node of
+/// a coupling or the node at the end of its links, as a rigid body,
+///   u = u_ref + theta_ref x arm,  theta = theta_ref.
+struct CoupledNodes {
+  std::vector<std::array<double, 3>> positions;  ///< [n], m
+  std::vector<int> references;                   ///< [n] index of the reference, -1 if independent
+  /// [n] What a dependent node depends on; else empty.
+  std::vector<std::string> names_followed;
+  std::vector<std::string> reference_names;
+
+  int n_nodes() const { return static_cast<int>(positions.size()); }
+  int n_mesh_nodes() const { return n_nodes() - static_cast<int>(reference_names.size()); }
+  Eigen::Vector3d position(int node) const { return Eigen::Vector3d(positions[node].data()); }
+  /// The vector from the reference to a dependent node, m.
+  Eigen::Vector3d arm(int node) const { return position(node) - position(reference(node)); }
+  bool is_dependent(int node) const { return references[node] >= 0; }
+  int reference(int node) const { return references[node]; }
+  std::optional<int> reference_node(const std::string& name) const;
+  const std::string& reference_name(int node) const
+  {
+    return reference_names[node - n_mesh_nodes()];
+  }
+  /// The nodes of a group or ring, or the reference node of a coupling.
+  /// @throws chladni::Error when there is no such name, naming those that exist.
+  std::vector<int> named_nodes(const mesh::Mesh& mesh, const std::string& name) const;
+};
+
+/// The nodes of the mesh and the reference nodes of the couplings. Each dependent node has the
+/// reference at the end of its chain.
+/// @throws chladni::Error as `make_dof_map` for rigid couplings and links.
+CoupledNodes follow_references(const mesh::Mesh& mesh, std::span<const Coupling> couplings);
+
+/// The name of a coupling for messages: `coupling "hub"` or `link of "wall_foot" to "wall_seat"`.
+std::string describe(const Coupling& coupling);
+
+/// Nodes with numbers for the active ones, those that have DOFs. Each rank owns a contiguous range.
+struct NumberedNodes : CoupledNodes {
+  std::vector<int> numbers;        ///< [n] -1 where the node has no DOFs of its own
+  std::vector<int> first_numbers;  ///< [n_ranks + 1] first number of each rank
+
+  int number(int node) const { return numbers[node]; }
+  int first_number(int rank) const { return first_numbers[rank]; }
+  int n_active() const { return first_numbers.back(); }
+};
+
+/// Numbers the active nodes. A reference node belongs to the lowest rank among its dependents.
+/// @param owners  [n_mesh_nodes] rank of each node of the mesh
+NumberedNodes number_nodes(CoupledNodes coupled, std::span<const Coupling> couplings,
+                           std::span<const int> owners, int n_ranks);
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// The matrix with a x b = cross_matrix(a) b.
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a);
+
+/// The matrix from the motion (u, theta) of a point to the motion (u + theta x arm, theta) of a
+/// point that follows it as a rigid body.
+/// @param arm  m
+Matrix6d rigid_arm(const Eigen::Vector3d& arm);
+
+/// A term T q of the motion (u, theta) of a node, with q the six coordinates of an active number.
+struct MotionTerm {
+  int number;
+  Matrix6d T;
+};
+
+/// The motion of a node as a combination of DOFs of other nodes: by an averaging coupling, or as
+/// the sum of the harmonics of a ring.
+struct CombinedMotion {
+  /// Name of the coupling or ring; empty for the reference node of the coupling.
+  std::string followed;
+  std::vector<MotionTerm> terms;
+  /// The DOF that equals each component of the motion; -1 if there is none.
+  std::array<int, 6> dof;
+};
+
+/// Nodes with averaging couplings. Such a coupling replaces six displacements of nodes of its group
+/// by the motion of its reference node, whose DOFs take their places.
+struct NodeMotions : NumberedNodes {
+  std::map<int, CombinedMotion> combined;  ///< by node
+
+  bool has_combined_motions() const { return !combined.empty(); }
+  /// True if the motion of a node is that of its own six DOFs.
+  bool is_plain(int node) const { return !is_dependent(node) && !combined.contains(node); }
+  /// The terms whose sum is the motion of a node.
+  std::vector<MotionTerm> motion(int node) const;
+  /// The name of the coupling or ring that the motion of a node depends on; empty for none.
+  const std::string& followed(int node) const;
+};
+
+/// The motions of nodes with averaging couplings. With x_i the nodes of the group, w_i their
+/// group_shares divided by the sum of these, c = sum w_i x_i and r_i = x_i - c, the reference node
+/// moves by
+///   theta_ref = J^-1 sum w_i r_i x u_i,   J = sum w_i (r_i^2 I - r_i r_i^T),
+///   u_ref = sum w_i u_i + theta_ref x (x_ref - c),
+/// the rigid motion that fits the u_i best. These six equations are solved for six of the u_i,
+/// chosen by pivoting: they become combinations of the others and of the motion of the reference
+/// node, whose DOFs take their places. The system keeps its size, and the reference node can be
+/// loaded, held or be an attachment like any other.
+/// @throws chladni::Error when groups overlap or have no six independent displacements (fewer than
+///         three nodes, or all of them on one line).
+NodeMotions average_motions(const mesh::Mesh& mesh, std::span<const Coupling> couplings,
+                            NumberedNodes nodes);
+
+/// int N_i ds of each node, m, over the element edges or lines that have all their nodes in the
+/// group. An edge between two elements counts once. Empty if there is no such edge.
+std::map<int, double> edge_shares(const mesh::Mesh& mesh, const std::string& group);
+
+/// The share of each node in a group: int N_i dA over the elements of a group of surfaces, m^2, int
+/// N_i ds over the edges of a group of curves, m, and 1 if the group has neither.
+std::map<int, double> group_shares(const mesh::Mesh& mesh, const std::string& group);
+
+}  // namespace chladni::plate
