@@ -1,5 +1,6 @@
 #include "cases/moving_body.hpp"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

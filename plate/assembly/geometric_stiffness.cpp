@@ -1,5 +1,7 @@
 #include "plate/assembly/geometric_stiffness.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 
