@@ -1,8 +1,8 @@
 #include "cases/moving_body.hpp"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <map>
