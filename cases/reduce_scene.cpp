@@ -17,11 +17,11 @@
 #include "cases/section_forces.hpp"
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
-#include "files/input_file.hpp"
+#include "common/files/input_file.hpp"
 #include "linear/cholesky/petsc_factor.hpp"
 #include "mesh/partition.hpp"
 #include "reduce/craig_bampton.hpp"
-#include "reduce_export/reduced_system.hpp"
+#include "reduce/reduced_system.hpp"
 #include "report/version.hpp"
 
 namespace chladni::cases {
@@ -86,7 +86,7 @@ SceneReduction reduce_model(const scene::Scene& scene, FeModel& fe,
       scene_responses(scene, system, body.masters, support.fixed());
   if (responses) options.responses = responses->goal;
   reduce::Reduction reduction = reduce::reduction(body, options, support, phases);
-  system = reduce_export::reduced_system(std::move(system), body, reduction, support.fixed());
+  system = reduce::reduced_system(std::move(system), body, reduction, support.fixed());
   if (system.certificate.responses) system.certificate.responses->loads = *responses->names;
   const auto n_modes = static_cast<int>(reduction.model.omega.size());
   phases.begin("residuals");
@@ -98,7 +98,7 @@ SceneReduction reduce_model(const scene::Scene& scene, FeModel& fe,
   if (wants_full_responses(scene)) {
     reduction = reduce::with_responses(std::move(reduction), body,
                                        full_response_loads(scene, system, body.masters), phases);
-    system = reduce_export::reduced_system(std::move(system), body, reduction, support.fixed());
+    system = reduce::reduced_system(std::move(system), body, reduction, support.fixed());
   }
   std::vector<int> places = reduce::coordinate_places(body.masters, reduction.model);
   SceneReduction reduced{.body = std::move(body),
@@ -181,7 +181,7 @@ mbs_export::Provenance provenance(const scene::Scene& scene, const SaidOfSolvers
       .scene = scene.text,
       .mesh_checksum = mesh::checksum(mesh),
       .versions = fmt::format("Chladni {}; {}{}", report::version,
-                              reduce_export::library_versions(), maker(mesh)),
+                              reduce::library_versions(), maker(mesh)),
       .options = solvers.text,
       .ranks = n_ranks(),
       .mesh_file_digest = scene.mesh.file ? files::file_digest(*scene.mesh.file) : std::string()};

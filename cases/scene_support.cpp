@@ -16,7 +16,7 @@
 #include "mbs_export/response_error.hpp"
 #include "mbs_export/select_by_tolerance.hpp"
 #include "reduce/reduction.hpp"
-#include "reduce_export/reduced_system.hpp"
+#include "reduce/reduced_system.hpp"
 
 namespace chladni::cases {
 
@@ -41,7 +41,7 @@ reduce::SupportedModes SceneSupport::modes(const reduce::ReducedModel& model,
 {
   const std::vector<int> places = reduce::coordinate_places(masters_, model);
   const mbs_export::HeldModeShapes held =
-      mbs_export::held_mode_shapes(reduce_export::with_model(described_, model, places), fixed_,
+      mbs_export::held_mode_shapes(reduce::with_model(described_, model, places), fixed_,
                                    {.lambda_max = wanted.lambda_max, .most = wanted.most});
   reduce::SupportedModes modes{
       .pairs = {.X = Eigen::MatrixXd::Zero(model.K.rows(), held.omega.size()), .lambda = {}},
@@ -57,7 +57,7 @@ double SceneSupport::zero_energy(const reduce::ReducedModel& model,
                                  const reduce::SupportedModes& /*modes*/) const
 {
   return mbs_export::rigid_residual(
-      reduce_export::with_model(described_, model, reduce::coordinate_places(masters_, model)));
+      reduce::with_model(described_, model, reduce::coordinate_places(masters_, model)));
 }
 
 namespace {
@@ -99,7 +99,7 @@ std::optional<SceneResponses> scene_responses(const scene::Scene& scene,
                       options = scene.body](const reduce::ReducedModel& model) {
     const std::vector<int> places = reduce::coordinate_places(masters, model);
     const mbs_export::ResponseSizes sizes =
-        mbs_export::response_sizes(reduce_export::with_model(described, model, places), options);
+        mbs_export::response_sizes(reduce::with_model(described, model, places), options);
     *names = sizes.names;
     return loads_of(sizes, places, model.n_masters);
   };

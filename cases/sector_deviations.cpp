@@ -13,8 +13,8 @@
 #include "cases/sector_model.hpp"
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
-#include "cyclic/harmonic_coordinates.hpp"
-#include "cyclic/sector.hpp"
+#include "reduce/cyclic/harmonic_coordinates.hpp"
+#include "reduce/cyclic/sector.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 

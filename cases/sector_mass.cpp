@@ -8,8 +8,8 @@
 
 #include "cases/fe_model.hpp"
 #include "common/eigen_every.hpp"
-#include "cyclic/harmonic_coordinates.hpp"
-#include "cyclic/sector.hpp"
+#include "reduce/cyclic/harmonic_coordinates.hpp"
+#include "reduce/cyclic/sector.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 
 namespace chladni::cases {

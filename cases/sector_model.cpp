@@ -9,7 +9,7 @@
 
 #include "cases/fe_model.hpp"
 #include "common/error.hpp"
-#include "cyclic/harmonic_coordinates.hpp"
+#include "reduce/cyclic/harmonic_coordinates.hpp"
 #include "mesh/sectors.hpp"
 #include "plate/dofs/drilling.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cyclic/harmonic_model.hpp"
+#include "reduce/cyclic/harmonic_model.hpp"
 #include "mbs_export/reduced_system.hpp"
 #include "mesh/mesh.hpp"
 #include "plate/assembly/assemble.hpp"

@@ -12,8 +12,8 @@
 #include "cases/section_forces.hpp"
 #include "cases/sector_model.hpp"
 #include "common/eigen_every.hpp"
-#include "cyclic/sector.hpp"
-#include "reduce_export/reduced_system.hpp"
+#include "reduce/cyclic/sector.hpp"
+#include "reduce/reduced_system.hpp"
 
 namespace chladni::cases {
 

@@ -7,7 +7,7 @@
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
 #include "common/error.hpp"
-#include "files/output_file.hpp"
+#include "common/files/output_file.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "report/fe/sound_report.hpp"
 #include "report/fe/vtu.hpp"

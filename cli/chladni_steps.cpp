@@ -12,7 +12,7 @@
 #include "cases/reduce_scene.hpp"
 #include "cases/scene_body.hpp"
 #include "common/error.hpp"
-#include "files/output_file.hpp"
+#include "common/files/output_file.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "report/origin.hpp"
 #include "report/progress.hpp"

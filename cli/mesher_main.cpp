@@ -1,5 +1,5 @@
 // Makes meshes by Gmsh for `chladni`, which starts it: nothing to be started by hand.
-#include "confinement/helper_process.hpp"
+#include "common/confinement/helper_process.hpp"
 #include "mesh/gmsh/gmsh.hpp"
 #include "sound/gmsh/air.hpp"
 

@@ -19,7 +19,7 @@
 #include "cli/chladni_steps.hpp"
 #include "cli/writer_mark.hpp"
 #include "common/error.hpp"
-#include "files/output_file.hpp"
+#include "common/files/output_file.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "mbs_export/measured/measured_functions.hpp"
 #include "mbs_export/responses/response_files.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/arguments.hpp"
-#include "files/output_file.hpp"
+#include "common/files/output_file.hpp"
 #include "report/origin.hpp"
 
 namespace chladni::cli {

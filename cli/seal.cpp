@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "files/seal.hpp"
+#include "common/files/seal.hpp"
 
 namespace chladni::cli {
 

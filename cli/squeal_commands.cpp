@@ -15,7 +15,7 @@
 #include "cases/squeal/sweep.hpp"
 #include "cli/reserve_outputs.hpp"
 #include "common/error.hpp"
-#include "files/output_file.hpp"
+#include "common/files/output_file.hpp"
 #include "report/describe_body.hpp"
 #include "report/describe_squeal.hpp"
 #include "report/json.hpp"

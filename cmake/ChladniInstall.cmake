@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/chladni)
 set(light_libraries common products files dense fmu mbs_export squeal_options squeal_brake squeal)
-set(fe_libraries petsc linear confinement mesh elements plate reduce reduce_export air_of_gmsh sound)
+set(fe_libraries petsc linear confinement mesh elements plate reduce air_of_gmsh sound)
 
 # chladni_export(SET LIBRARIES...): those that are built become chladni::NAME of the package.
 function(chladni_export set)
@@ -54,8 +54,8 @@ endif()
 # with them and may change without notice.
 set(light_headers
     common/error.hpp
-    files/hdf5.hpp
-    files/seal.hpp
+    common/files/hdf5.hpp
+    common/files/seal.hpp
     linear/dense/dense_solvers.hpp
     linear/dense/eigenmodes.hpp
     mbs_export/make_body.hpp
@@ -119,7 +119,7 @@ set(fe_headers
     reduce/completeness.hpp
     reduce/tolerance_search.hpp
     reduce/supported_solutions.hpp
-    reduce_export/reduced_system.hpp
+    reduce/reduced_system.hpp
     sound/study.hpp
     sound/sound_file.hpp
     sound/field.hpp)

@@ -13,7 +13,7 @@ if(sundials_needs_mpi)
 endif()
 
 function(chladni_use_cvode target)
-  set(folder ${PROJECT_SOURCE_DIR}/references/squeal)
+  set(folder ${PROJECT_SOURCE_DIR}/tests/references/squeal)
   if(SUNDIALS_CVODE AND SUNDIALS_NVECTOR AND (NOT sundials_needs_mpi OR TARGET MPI::MPI_CXX))
     target_sources(${target} PRIVATE ${folder}/cvode.cpp)
     target_link_libraries(${target} PRIVATE ${SUNDIALS_CVODE} ${SUNDIALS_NVECTOR} $<$<BOOL:${SUNDIALS_CORE}>:${SUNDIALS_CORE}>

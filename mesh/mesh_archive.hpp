@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "common/packing.hpp"
-#include "confinement/sandbox.hpp"
+#include "common/confinement/sandbox.hpp"
 #include "mesh/decks/declarations.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/mesh_options.hpp"

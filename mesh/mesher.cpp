@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "common/error.hpp"
-#include "confinement/helper_process.hpp"
-#include "confinement/sandbox.hpp"
+#include "common/confinement/helper_process.hpp"
+#include "common/confinement/sandbox.hpp"
 #include "mesh/decks/read_deck.hpp"
 #include "mesh/mesh_archive.hpp"
 #include "mesh/own_readers.hpp"

@@ -13,9 +13,9 @@
 #include <regex>
 
 #include "common/error.hpp"
-#include "confinement/helper_process.hpp"
-#include "files/input_file.hpp"
-#include "files/output_file.hpp"
+#include "common/confinement/helper_process.hpp"
+#include "common/files/input_file.hpp"
+#include "common/files/output_file.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/mesh_archive.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/petsc.hpp"
-#include "cyclic/harmonic_coordinates.hpp"
+#include "reduce/cyclic/harmonic_coordinates.hpp"
 
 namespace chladni::plugin {
 

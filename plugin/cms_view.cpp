@@ -12,7 +12,7 @@
 #include "common/all_ranks.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "plugin/cms_impl.hpp"
-#include "reduce_export/reduced_system.hpp"
+#include "reduce/reduced_system.hpp"
 
 using namespace chladni::plugin;  // NOLINT(google-build-using-namespace)
 
@@ -279,7 +279,7 @@ mbs_export::Provenance provenance(CMS cms, MPI_Comm comm)
   mbs_export::Provenance result{.scene = "",
                                 .mesh_checksum = "",
                                 .versions = fmt::format("libchladni_petsc {}; {}", CHLADNI_VERSION,
-                                                        reduce_export::library_versions()),
+                                                        reduce::library_versions()),
                                 .options = options,
                                 .ranks = petsc::size(comm)};
   petsc::check(PetscFree(options));
@@ -309,7 +309,7 @@ void write_file(CMS cms, const std::string& path)
   const reduce::Reduction& reduction = in.result->reduction;
   std::vector<std::string> support = add_support(described, body, held_masters(in));
   mbs_export::ReducedSystem system =
-      reduce_export::reduced_system(std::move(described), body, reduction, std::move(support));
+      reduce::reduced_system(std::move(described), body, reduction, std::move(support));
   if (velocity.C) {
     const std::vector<int> places = reduce::coordinate_places(body.masters, reduction.model);
     system.C = reduced_velocity_forces(in)(places, places);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "files/input_file.hpp"
+#include "common/files/input_file.hpp"
 #include "report/text_table.hpp"
 #include "scene/scene_text.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
-#include "confinement/helper_process.hpp"
+#include "common/confinement/helper_process.hpp"
 #include "sound/air_of_gmsh.hpp"
 
 namespace chladni::sound {

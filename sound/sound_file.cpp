@@ -6,7 +6,7 @@
 #include <span>
 
 #include "common/eigen_every.hpp"
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "sound/tone.hpp"
 

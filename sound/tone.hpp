@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 #include "sound/air_plan.hpp"
 #include "sound/field.hpp"
 #include "sound/surface_motion.hpp"

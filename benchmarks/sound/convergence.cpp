@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "references/sound/exact_fields.hpp"
-#include "references/sound/thesis_disc.hpp"
+#include "tests/references/sound/exact_fields.hpp"
+#include "tests/references/sound/thesis_disc.hpp"
 #include "sound/air_mesh.hpp"
 #include "sound/field.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "references/squeal/kirchhoff_modes.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/stability/eigenvalues.hpp"

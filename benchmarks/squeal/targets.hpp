@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/disc.hpp"
 
 namespace chladni::squeal::bench {

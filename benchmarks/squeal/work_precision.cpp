@@ -14,9 +14,9 @@
 
 #include "benchmarks/squeal/hard_cases.hpp"
 #include "benchmarks/squeal/targets.hpp"
-#include "references/squeal/analytic_body.hpp"
-#include "references/squeal/cvode.hpp"
-#include "references/squeal/kirchhoff_modes.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/cvode.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/motion/disc_motion.hpp"
 #include "squeal/motion/dormand_prince.hpp"

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
-#include "brake_fmu/brake_simulation.hpp"
-#include "brake_fmu/driven_brake.hpp"
+#include "squeal/fmu/brake_simulation.hpp"
+#include "squeal/fmu/driven_brake.hpp"
 #include "cases/squeal/squeal_case.hpp"
 #include "common/error.hpp"
 #include "squeal/models/flexible_disc.hpp"

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "files/hdf5.hpp"
-#include "files/input_file.hpp"
+#include "common/files/hdf5.hpp"
+#include "common/files/input_file.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "report/version.hpp"
 #include "scene/scene_text.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cases/squeal/squeal_case.hpp"
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 #include "scene/scene.hpp"
 #include "scene/scene_text.hpp"
 #include "squeal/models/brake.hpp"

@@ -12,7 +12,7 @@
 #include "plate/assembly/assemble.hpp"
 #include "reduce/reduction.hpp"
 #include "reduce/support.hpp"
-#include "reduce_export/reduced_system.hpp"
+#include "reduce/reduced_system.hpp"
 
 namespace {
 
@@ -71,7 +71,7 @@ void reduce_disc()
       reduce::reduction(body, options, reduce::HeldMasters(hub, hub), silent);
   // 4. The system that is written, and from it, here or elsewhere, the body of the squeal solver.
   const mbs_export::ReducedSystem reduced =
-      reduce_export::reduced_system(described(fe.dofs), body, reduction, {"hub"});
+      reduce::reduced_system(described(fe.dofs), body, reduction, {"hub"});
   if (petsc::rank(PETSC_COMM_WORLD) == 0) {
     mbs_export::write_reduced("disc.reduced.h5", reduced);
     mbs_export::write_body("disc.body.h5", mbs_export::make_body(reduced, {.fixed = {"hub"}}));

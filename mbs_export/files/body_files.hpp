@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 #include "mbs_export/certificate.hpp"
 #include "mbs_export/inertia.hpp"
 #include "mbs_export/modal_body.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/eigen_every.hpp"
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 #include "mbs_export/formats/export_error.hpp"
 #include "mbs_export/formats/floating_body.hpp"
 

@@ -20,7 +20,7 @@
 
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
-#include "files/input_file.hpp"
+#include "common/files/input_file.hpp"
 
 namespace chladni::mbs_export::formats {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fmu/modal_model.hpp"
+#include "mbs_export/fmu/modal_model.hpp"
 #include "mbs_export/modal_body.hpp"
 
 namespace chladni::mbs_export::formats {

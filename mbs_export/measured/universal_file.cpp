@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "common/error.hpp"
-#include "files/input_file.hpp"
+#include "common/files/input_file.hpp"
 
 namespace chladni::mbs_export {
 

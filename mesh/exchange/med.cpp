@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "files/hdf5_objects.hpp"
+#include "common/files/hdf5_objects.hpp"
 
 namespace chladni::mesh {
 

@@ -15,7 +15,7 @@
 #include <string_view>
 
 #include "common/error.hpp"
-#include "confinement/sandbox.hpp"
+#include "common/confinement/sandbox.hpp"
 #include "mesh/decks/read_deck.hpp"
 #include "mesh/gmsh_text.hpp"
 #include "mesh/mesh_archive.hpp"

@@ -11,7 +11,7 @@
 #include "cases/reduce_scene.hpp"
 #include "cases/scene_body.hpp"
 #include "common/petsc.hpp"
-#include "files/output_file.hpp"
+#include "common/files/output_file.hpp"
 #include "linear/solver_options.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "python/bind/interruptible.hpp"

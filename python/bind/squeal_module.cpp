@@ -12,8 +12,8 @@
 
 #include "cases/squeal/squeal_case.hpp"
 #include "common/error.hpp"
-#include "files/hdf5.hpp"
-#include "files/output_file.hpp"
+#include "common/files/hdf5.hpp"
+#include "common/files/output_file.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "mbs_export/responses/response_files.hpp"
 #include "python/bind/interruptible.hpp"

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "files/output_file.hpp"
+#include "common/files/output_file.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "report/describe_body.hpp"
 #include "report/describe_responses.hpp"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 #include "report/json.hpp"
 
 namespace chladni::report {

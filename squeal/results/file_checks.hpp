@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 
 /// Checks of values in a result file when they are read, so that later code can use them as
 /// indices.

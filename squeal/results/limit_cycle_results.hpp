@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 #include "squeal/results/stability_results.hpp"
 
 namespace chladni::squeal {

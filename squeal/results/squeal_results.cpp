@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "squeal/results/file_checks.hpp"
 #include "squeal/results/limit_cycle_results.hpp"

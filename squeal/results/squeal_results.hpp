@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 #include "mbs_export/reduced_system.hpp"
 #include "squeal/results/limit_cycle_results.hpp"
 #include "squeal/results/sensitivity_results.hpp"

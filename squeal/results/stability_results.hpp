@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 #include "squeal/study_options.hpp"
 
 namespace chladni::squeal {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 
 namespace chladni::squeal {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "common/error.hpp"
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 #include "mbs_export/files/body_files.hpp"
 
 namespace chladni::squeal {

@@ -19,7 +19,7 @@ struct RunOrigin {
 };
 
 /// The state of a long transient in a file, from which an interrupted run continues. It is written
-/// periodically, as a whole (files/replacement.hpp), and removed when the run ends successfully.
+/// periodically, as a whole (common/files/output_file.hpp), and removed when the run ends successfully.
 class Checkpoint {
  public:
   /// @param interval  wall time between two writes, s

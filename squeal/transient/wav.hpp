@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "files/output_file.hpp"
+#include "common/files/output_file.hpp"
 #include "squeal/motion/state_archive.hpp"
 
 namespace chladni::squeal {

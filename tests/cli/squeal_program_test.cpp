@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "squeal/results/squeal_results.hpp"
 #include "tests/cli/programs.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "squeal/results/squeal_results.hpp"
 #include "squeal/results/sweep_table.hpp"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "files/hdf5_objects.hpp"
+#include "common/files/hdf5_objects.hpp"
 
 namespace chladni::fuzz {
 namespace {

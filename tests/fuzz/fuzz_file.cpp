@@ -6,7 +6,7 @@
 
 #include "common/error.hpp"
 #include "damage.hpp"
-#include "files/seal.hpp"
+#include "common/files/seal.hpp"
 #include "memory_file.hpp"
 
 /// Read by the address sanitizer before main. libhdf5 believes a damaged file that its metadata

@@ -4,8 +4,8 @@
 
 #include "hard_case.hpp"
 #include "linear/dense/dense_solvers.hpp"
-#include "references/squeal/analytic_body.hpp"
-#include "references/squeal/kirchhoff_modes.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/cycle/limit_cycle.hpp"

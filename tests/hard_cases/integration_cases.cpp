@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "hard_case.hpp"
-#include "references/squeal/analytic_body.hpp"
-#include "references/squeal/kirchhoff_modes.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/motion/dormand_prince.hpp"

@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "hard_case.hpp"
-#include "references/sound/exact_fields.hpp"
-#include "references/sound/thesis_disc.hpp"
+#include "tests/references/sound/exact_fields.hpp"
+#include "tests/references/sound/thesis_disc.hpp"
 #include "sound/air_plan.hpp"
 #include "sound/field.hpp"
 

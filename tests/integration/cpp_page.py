@@ -15,7 +15,7 @@ PROLOGUE = """
 #include "plate/assembly/assemble.hpp"
 #include "reduce/support.hpp"
 #include "reduce/reduction.hpp"
-#include "reduce_export/reduced_system.hpp"
+#include "reduce/reduced_system.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/study/study.hpp"
 using namespace chladni;

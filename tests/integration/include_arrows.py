@@ -9,36 +9,35 @@ from pathlib import Path
 
 # What each room may include besides itself; a room within a folder has rules of its own. "plate" is what stands in
 # plate/ itself, "plate/" that and all rooms below it.
-LIGHT = ("common", "files", "linear/dense")
+LIGHT = ("common", "common/files", "linear/dense")
 LINEAR = ("common", "linear/")
 BODIES = (*LIGHT, "mbs_export/")
-MODELS = ("common", "mesh/", "plate/", "reduce", "cyclic", "reduce_export", "linear/", "files", "mbs_export/", "squeal/", "sound")
+MODELS = ("common", "mesh/", "plate/", "reduce", "reduce/cyclic", "linear/", "common/files", "mbs_export/", "squeal/", "sound")
 ALLOWED = {
     "common": (),
-    "files": ("common",),
+    "common/files": ("common",),
     "linear": ("common",),
     "linear/dense": ("common",),
     "linear/kernels": ("common", "linear", "linear/dense"),
     "linear/cholesky": ("common", "linear", "linear/kernels", "linear/cholesky/supernodal"),
     "linear/cholesky/supernodal": ("common", "linear", "linear/kernels", "linear/cholesky"),
     "linear/lanczos": ("common", "linear", "linear/kernels"),
-    "confinement": ("common",),
-    "mesh": ("common", "confinement", "files", "mesh/decks", "mesh/exchange"),
+    "common/confinement": ("common",),
+    "mesh": ("common", "common/confinement", "common/files", "mesh/decks", "mesh/exchange"),
     "mesh/decks": ("common", "mesh"),
-    "mesh/gmsh": ("common", "confinement", "mesh", "mesh/decks", "mesh/exchange"),
-    "mesh/exchange": ("common", "files", "mesh", "mesh/decks"),
+    "mesh/gmsh": ("common", "common/confinement", "mesh", "mesh/decks", "mesh/exchange"),
+    "mesh/exchange": ("common", "common/files", "mesh", "mesh/decks"),
     "plate": ("common", "mesh"),
     "plate/elements": ("common", "mesh", "plate"),
     "plate/refinement": ("common", "mesh", "plate", "plate/elements"),
     "plate/sections": ("common", "mesh", "plate", "plate/elements"),
     "plate/dofs": ("common", "mesh", "plate", "plate/elements", "plate/sections"),
     "plate/assembly": ("common", "mesh", "plate/"),
-    "reduce": LINEAR,
-    "cyclic": (*LINEAR, "reduce"),
-    "fmu": ("common",),
-    "mbs_export": (*BODIES, "fmu"),
-    "reduce_export": (*LINEAR, "files", "reduce", "mbs_export/"),
-    "plugin": (*LINEAR, "files", "reduce", "cyclic", "mbs_export/", "reduce_export"),
+    "reduce": (*LINEAR, "common/files", "mbs_export/"),
+    "reduce/cyclic": (*LINEAR, "reduce"),
+    "mbs_export/fmu": ("common",),
+    "mbs_export": (*BODIES, "mbs_export/fmu"),
+    "plugin": (*LINEAR, "common/files", "reduce", "reduce/cyclic", "mbs_export/"),
     "squeal": BODIES,
     "squeal/results": (*BODIES, "squeal"),
     "squeal/brake": (*BODIES, "squeal", "squeal/results"),
@@ -52,15 +51,15 @@ ALLOWED = {
                          "squeal/stability"),
     "squeal/cycle": (*BODIES, "squeal", "squeal/results", "squeal/brake", "squeal/motion", "squeal/models",
                      "squeal/stability", "squeal/transient"),
-    "brake_fmu": (*BODIES, "fmu", "squeal/brake", "squeal/motion", "squeal"),
+    "squeal/fmu": (*BODIES, "mbs_export/fmu", "squeal/brake", "squeal/motion", "squeal"),
     "squeal/study": (*BODIES, "squeal/"),
-    "sound": (*BODIES, "squeal/", "confinement"),
+    "sound": (*BODIES, "squeal/", "common/confinement"),
     "sound/gmsh": ("common", "sound"),
     "scene": ("common",),  # and OPTIONS
     "report": (*BODIES, "squeal/", "scene/"),
     "report/fe": (*BODIES, "squeal/", "sound", "mesh", "plate/", "scene/", "report/"),
     "cases": (*MODELS, "scene/", "report/"),
-    "cases/squeal": (*BODIES, "squeal/", "brake_fmu", "scene/", "report"),
+    "cases/squeal": (*BODIES, "squeal/", "squeal/fmu", "scene/", "report"),
     "cli": (*MODELS, "scene/", "report/", "cases/"),  # and MESHER
     "python": (*MODELS, "scene/", "report/", "cases/"),
 }
@@ -69,12 +68,12 @@ OPTIONS = re.compile(r"[\w/]+/(\w+_options|friction|cycle_harmonics)\.hpp$")
 # Right of the modal body nobody has heard of the finite elements or of their libraries; METIS orders the matrices of linear/.
 HEAVY = ("common/petsc", "common/all_ranks", "common/index_sets", "petsc", "slepc", "mpi.h", "gmsh.h", "metis.h", "dmumps", "zmumps")
 CUTS = {
-    "files": HEAVY,
-    "fmu": (*HEAVY, "fmt", "hdf5", "files"),  # runs in programs of others, where none of it is
-    "brake_fmu": (*HEAVY, "fmt", "hdf5", "files"),
+    "common/files": HEAVY,
+    "mbs_export/fmu": (*HEAVY, "fmt", "hdf5", "common/files"),  # runs in programs of others, where none of it is
+    "squeal/fmu": (*HEAVY, "fmt", "hdf5", "common/files"),
     "linear/dense": HEAVY,
     "reduce": ("metis.h",),
-    "cyclic": ("metis.h",),
+    "reduce/cyclic": ("metis.h",),
     "plugin": ("metis.h",),
     "mbs_export": HEAVY,
     "squeal": HEAVY,
@@ -86,7 +85,7 @@ CUTS = {
 }
 # One program knows Gmsh, which is slow to load: these rooms are linked to nothing else.
 OF_GMSH = ("mesh/gmsh", "sound/gmsh")
-MESHER = ("cli", "mesher_main.cpp", ("confinement", *OF_GMSH))
+MESHER = ("cli", "mesher_main.cpp", ("common/confinement", *OF_GMSH))
 # These cost the compiler up to a minute in each source; they are compiled once behind this header, for all who may include it.
 SOLVERS = ("Eigen/Eigenvalues", "Eigen/SVD", "Eigen/Dense")
 COMPILED_ONCE = "linear/dense/dense_solvers.hpp"

@@ -4,7 +4,7 @@ import re
 import sys
 from pathlib import Path
 
-NO_ROOMS = ("benchmarks", "build", "cmake", "docs", "examples", "references", "tests")
+NO_ROOMS = ("benchmarks", "build", "cmake", "docs", "examples", "tests")
 
 
 def complaints(root):

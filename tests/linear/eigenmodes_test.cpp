@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 
 namespace chladni::linear {
 namespace {

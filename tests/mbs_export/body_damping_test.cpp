@@ -8,7 +8,7 @@
 #include "linear/dense/dense_solvers.hpp"
 #include "mbs_export/check_body.hpp"
 #include "mbs_export/files/body_files.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {

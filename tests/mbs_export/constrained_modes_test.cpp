@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "bending_beam.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {

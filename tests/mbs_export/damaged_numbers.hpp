@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "files/hdf5_objects.hpp"
-#include "files/seal.hpp"
+#include "common/files/hdf5_objects.hpp"
+#include "common/files/seal.hpp"
 
 namespace chladni::mbs_export::test {
 

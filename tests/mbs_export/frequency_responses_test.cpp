@@ -12,7 +12,7 @@
 #include "mbs_export/make_body.hpp"
 #include "mbs_export/responses/response_files.hpp"
 #include "mbs_export/responses/response_options.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "tests/mbs_export/bending_beam.hpp"
 
 namespace chladni::mbs_export {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 
 namespace chladni::mbs_export {
 namespace {

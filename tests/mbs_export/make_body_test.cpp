@@ -7,7 +7,7 @@
 #include "bending_beam.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "mbs_export/files/body_files.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {

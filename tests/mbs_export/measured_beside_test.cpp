@@ -4,12 +4,12 @@
 
 #include <numbers>
 
-#include "files/output_file.hpp"
+#include "common/files/output_file.hpp"
 #include "mbs_export/make_body.hpp"
 #include "mbs_export/measured/measured_functions.hpp"
 #include "mbs_export/responses/response_files.hpp"
 #include "mbs_export/responses/response_options.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "tests/mbs_export/bending_beam.hpp"
 
 namespace chladni::mbs_export {

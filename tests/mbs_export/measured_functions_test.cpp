@@ -8,7 +8,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 
 namespace chladni::mbs_export {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "bending_beam.hpp"
 #include "common/eigen_every.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bending_beam.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {

@@ -9,9 +9,9 @@
 
 #include "bending_beam.hpp"
 #include "expect_equal.hpp"
-#include "files/seal.hpp"
+#include "common/files/seal.hpp"
 #include "mbs_export/make_body.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {

@@ -9,7 +9,7 @@
 #include "mbs_export/files/body_files.hpp"
 #include "mbs_export/make_body.hpp"
 #include "mbs_export/response_error.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {

@@ -10,7 +10,7 @@
 #include "mbs_export/formats/formats.hpp"
 #include "mbs_export/free_modes.hpp"
 #include "mbs_export/make_body.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {

@@ -11,7 +11,7 @@
 #include "common/eigen_every.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "mbs_export/make_body.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {

@@ -6,7 +6,7 @@
 #include "expect_equal.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "mbs_export/make_body.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {

@@ -5,7 +5,7 @@
 
 #include "expect_equal.hpp"
 #include "mbs_export/files/body_files.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 
 namespace chladni::mbs_export {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/error.hpp"
-#include "confinement/helper_process.hpp"
+#include "common/confinement/helper_process.hpp"
 #include "generated.hpp"
 #include "mesh/mesh.hpp"
 

@@ -7,7 +7,7 @@
 #include <ostream>
 #include <vector>
 
-#include "references/sound/thesis_disc.hpp"
+#include "tests/references/sound/thesis_disc.hpp"
 #include "sound/tone.hpp"
 
 namespace chladni::sound {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "references/sound/thesis_disc.hpp"
+#include "tests/references/sound/thesis_disc.hpp"
 #include "sound/radiation.hpp"
 #include "sound/study.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "references/sound/exact_fields.hpp"
-#include "references/sound/thesis_disc.hpp"
+#include "tests/references/sound/exact_fields.hpp"
+#include "tests/references/sound/thesis_disc.hpp"
 #include "sound/levels.hpp"
 #include "sound/tone.hpp"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "common/error.hpp"
-#include "references/sound/thesis_disc.hpp"
+#include "tests/references/sound/thesis_disc.hpp"
 #include "sound/radiation.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/models/flexible_disc.hpp"

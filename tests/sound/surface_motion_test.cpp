@@ -7,7 +7,7 @@
 #include <string>
 
 #include "common/error.hpp"
-#include "references/sound/thesis_disc.hpp"
+#include "tests/references/sound/thesis_disc.hpp"
 #include "sound/air_mesh.hpp"
 
 namespace chladni::sound {

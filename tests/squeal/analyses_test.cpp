@@ -5,7 +5,7 @@
 #include <complex>
 
 #include "common/error.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/numerics.hpp"
@@ -15,7 +15,7 @@
 #include "squeal/study/study.hpp"
 #include "squeal/transient/spectrum.hpp"
 #include "squeal/transient/transient.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 
 namespace chladni::squeal {
 namespace {

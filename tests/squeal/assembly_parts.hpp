@@ -9,7 +9,7 @@
 
 #include "common/error.hpp"
 #include "mbs_export/modal_body.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/assembly/assembly.hpp"
 
 namespace chladni::squeal::test {

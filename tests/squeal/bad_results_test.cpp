@@ -4,9 +4,9 @@
 
 #include <functional>
 
-#include "files/hdf5.hpp"
+#include "common/files/hdf5.hpp"
 #include "squeal/results/squeal_results.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "version_1_results.hpp"
 
 namespace chladni::squeal {

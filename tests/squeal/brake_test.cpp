@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "source_disc.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/models/rigid_disc.hpp"

@@ -5,10 +5,10 @@
 #include <stdexcept>
 
 #include "common/error.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/models/sliding_masses.hpp"
 #include "squeal/transient/transient.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -7,7 +7,7 @@
 #include <complex>
 #include <vector>
 
-#include "references/squeal/kirchhoff_modes.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "linear/dense/dense_solvers.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 
 namespace chladni::squeal {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "common/error.hpp"
-#include "references/squeal/kirchhoff_modes.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/models/sliding_masses.hpp"
 #include "squeal/stability/stability_search.hpp"

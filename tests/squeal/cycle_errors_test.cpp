@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "planar_motions.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "source_disc.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/models/rigid_disc.hpp"

@@ -4,7 +4,7 @@
 
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/disc_ring.hpp"
 #include "tests/squeal/turning_discs.hpp"
 

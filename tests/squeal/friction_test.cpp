@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"

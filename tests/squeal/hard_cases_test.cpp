@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "linear/dense/dense_solvers.hpp"
-#include "references/squeal/analytic_body.hpp"
-#include "references/squeal/cvode.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/cvode.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/motion/disc_motion.hpp"

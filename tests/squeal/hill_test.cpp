@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/linear_contact.hpp"
 #include "squeal/brake/pad_system.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/motion/splitting.hpp"
 #include "squeal/transient/recorder.hpp"
 #include "squeal/transient/transient.hpp"

@@ -10,7 +10,7 @@
 
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/disc.hpp"
 
 namespace chladni::squeal {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
-#include "references/squeal/analytic_body.hpp"
-#include "references/squeal/kirchhoff_modes.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 #include "squeal/transient/integrator_choice.hpp"

@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "common/error.hpp"
-#include "references/squeal/analytic_body.hpp"
-#include "references/squeal/kirchhoff_modes.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/cycle/periodic_orbit.hpp"

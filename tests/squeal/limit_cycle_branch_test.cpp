@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "reference_branches.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 

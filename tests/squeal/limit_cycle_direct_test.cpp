@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/error.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/transient/transient.hpp"
 

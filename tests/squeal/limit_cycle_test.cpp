@@ -5,7 +5,7 @@
 #include <complex>
 
 #include "common/error.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "common/error.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/transient/transient.hpp"
 #include "tests/squeal/turning_discs.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/motion/disc_motion.hpp"
 #include "squeal/stability/eigenvalues.hpp"

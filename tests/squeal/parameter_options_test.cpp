@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/models/rigid_disc.hpp"
 #include "squeal/models/sliding_masses.hpp"

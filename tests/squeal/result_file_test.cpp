@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "common/error.hpp"
-#include "files/hdf5.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "common/files/hdf5.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/study/study.hpp"
 #include "tests/mbs_export/damaged_numbers.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 #include "squeal/transient/transient.hpp"

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "common/error.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/transient/resampling.hpp"
 #include "squeal/transient/spectrum.hpp"
 #include "squeal/transient/wav.hpp"

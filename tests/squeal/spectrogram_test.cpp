@@ -7,7 +7,7 @@
 
 #include "common/error.hpp"
 #include "squeal/results/squeal_results.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 
 namespace chladni::squeal {
 namespace {

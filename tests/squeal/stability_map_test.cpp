@@ -5,7 +5,7 @@
 #include <chrono>
 #include <string>
 
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 
 namespace chladni::squeal {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 #include "tests/squeal/motions_side_by_side.hpp"
 

@@ -4,7 +4,7 @@
 #include <thread>
 #include <vector>
 
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/numerics.hpp"
 #include "squeal/stability/rotation_stability.hpp"

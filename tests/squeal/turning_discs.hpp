@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 /// Discs that are not axisymmetric.
 namespace chladni::squeal::test {

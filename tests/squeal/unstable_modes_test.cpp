@@ -10,14 +10,14 @@
 #include <string>
 
 #include "common/error.hpp"
-#include "references/squeal/kirchhoff_modes.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/models/brake.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/models/sliding_masses.hpp"
 #include "squeal/results/squeal_results.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 #include "squeal/study/study.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "tests/squeal/source_disc.hpp"
 
 namespace chladni::squeal {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "common/error.hpp"
-#include "references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

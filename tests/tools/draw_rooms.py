@@ -11,8 +11,7 @@ import re
 import sys
 from pathlib import Path
 
-ROOMS = ["common", "files", "fmu", "confinement", "linear", "mesh", "plate", "reduce", "cyclic", "mbs_export", "reduce_export",
-         "plugin", "squeal", "brake_fmu", "sound", "scene", "cases", "report", "cli", "python"]  # fmt: skip
+ROOMS = ["common", "linear", "mesh", "plate", "mbs_export", "reduce", "plugin", "squeal", "sound", "scene", "cases", "report", "cli", "python"]  # fmt: skip
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.M)
 WIDTH, HEIGHT, LANE, GAP_X, GAP_Y, MARGIN = 190, 74, 10, 26, 46, 20
 

@@ -7,7 +7,7 @@ import re
 import sys
 from pathlib import Path
 
-NO_PRODUCT = ("benchmarks", "build", "cmake", "docs", "examples", "out", "packaging", "references", "tests")
+NO_PRODUCT = ("benchmarks", "build", "cmake", "docs", "examples", "out", "packaging", "tests")
 SMALL, LONG = 50, 700  # lines of a file
 LONGEST = 12  # functions shown
 LIMIT = re.compile(r"^\| ([^|]+?) \| (at (?:most|least)) \| ([\d,]+) \|", re.M)
@@ -54,7 +54,7 @@ def measure(root):
     cpp = [path for room in rooms(root) for path in files_below(room, ".hpp", ".cpp", ".h", ".c")]
     other = [path for room in rooms(root) for path in files_below(room, ".py", ".pyi", ".js")]
     lengths = {path: len(lines_of(path)) for path in cpp}
-    tests = [path for name in ("tests", "references") if (root / name).is_dir()
+    tests = [path for name in ("tests",) if (root / name).is_dir()
              for path in files_below(root / name, ".hpp", ".cpp", ".h", ".c", ".py")]  # fmt: skip
     total = sum(lengths.values())
     return lengths, {

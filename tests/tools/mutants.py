@@ -30,7 +30,7 @@ ROOMS = {
     "linear/dense": (["dense", "products"], ["dense_test"]),
     "linear": (["linear"], ["supernodal_test", "linear_test", "reduce_test"]),
     "reduce": (["reduce"], ["reduce_test"]),
-    "cyclic": (["cyclic"], ["cyclic_test"]),
+    "reduce/cyclic": (["cyclic"], ["cyclic_test"]),
     "mesh": (["mesh"], ["mesh_test"]),
     "plate/elements": (["elements"], ["elements_test"]),
     "plate": (["plate"], ["assemble_test"]),
@@ -54,7 +54,7 @@ EQUIVALENT = [
      "return (ring.radius >= 0.0) ? std::optional(ring) : std::nullopt;", "nodes on the axis all have the angle 0, which is refused before"),
     ("mbs_export/response_error.cpp", "(omega.array() > 0.0).select(omega.array().max(1e-300).square().inverse(), 0.0);", None,
      "no frequency is as low: it keeps a value from being infinite that is not taken"),
-    ("files/hdf5.cpp", "const Eigen::Index most = std::max<Eigen::Index>(1, piece / std::max<Eigen::Index>(1, x.cols()));", None,
+    ("common/files/hdf5.cpp", "const Eigen::Index most = std::max<Eigen::Index>(1, piece / std::max<Eigen::Index>(1, x.cols()));", None,
      "how many rows are written at a time; the file is the same"),
 ]  # fmt: skip
 

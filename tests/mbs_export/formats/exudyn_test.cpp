@@ -8,9 +8,9 @@
 
 #include "../version_1.hpp"
 #include "../wheel.hpp"
-#include "files/hdf5.hpp"
-#include "files/hdf5_objects.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "common/files/hdf5.hpp"
+#include "common/files/hdf5_objects.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 
 namespace chladni::mbs_export::formats {
 namespace {

@@ -9,7 +9,7 @@
 #include "../bending_beam.hpp"
 #include "../version_1.hpp"
 #include "../wheel.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 
 namespace chladni::mbs_export::formats {
 namespace {

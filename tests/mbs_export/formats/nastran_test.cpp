@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "../wheel.hpp"
-#include "files/output_file.hpp"
-#include "tests/files/scratch_folder.hpp"
+#include "common/files/output_file.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "two_nodes.hpp"
 
 namespace chladni::mbs_export::formats {
