@@ -4,7 +4,7 @@ from decimal import ROUND_CEILING, Context, Decimal
 from itertools import takewhile
 
 BEGIN, END = "<!-- made by ./dev bench: begin -->", "<!-- made by ./dev bench: end -->"
-NAMES = {"craig-bampton": "Craig-Bampton", "rubin": "Rubin", "macneal": "MacNeal"}
+NAMES = {"craig-bampton": "Craig-Bampton", "rubin": "Rubin"}
 
 
 def elements(found):

@@ -334,12 +334,6 @@ void refuse_axis(const SectorModel& model, const std::string& what, const std::s
 
 void check_deviations(const scene::Scene& scene, const SectorModel& model)
 {
-  if (!scene.deviations.empty() && scene.reduce.method == reduce::Method::macneal) {
-    throw Error(
-        "sectors: modes after MacNeal have no mass of their own to which deviations could be "
-        "added; "
-        "take the method \"rubin\"");
-  }
   for (const scene::Deviation& deviation : scene.deviations) {
     const auto check = [&](const std::string& what, const std::string& at) {
       refuse_cut_edge(model, what, at);

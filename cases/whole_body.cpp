@@ -392,21 +392,18 @@ mbs_export::Certificate whole_certificate(const std::vector<HarmonicPart>& parts
   std::vector<Entry> entries;
   mbs_export::Certificate whole;
   whole.fixed = fixed;
-  bool has_errors = true;
   for (const HarmonicPart& part : parts) {
     const reduce::Certificate& c = part.certificate;
     whole.n_rigid += c.n_zero;
     whole.rigid_residual = std::max(whole.rigid_residual, c.zero_energy);
     whole.condition = std::max(whole.condition, c.condition);
-    has_errors = has_errors && c.eta2.size() == c.lambda.size();
-    for (std::size_t i = 0; has_errors && i < c.lambda.size(); ++i) {
+    for (std::size_t i = 0; i < c.eta2.size(); ++i) {
       if (c.lambda[i] > lambda_max) continue;
       entries.push_back({c.lambda[i], c.eta2[i], c.estimates[i],
                          i < c.rounding.size() ? c.rounding[i] : 0.0,
                          i < c.bounds.size() ? c.bounds[i] : -1.0});
     }
   }
-  if (!has_errors) entries.clear();  // MacNeal's
   std::ranges::stable_sort(entries, {}, &Entry::lambda);
   const auto column = [&](double Entry::*member, std::size_t n) {
     VectorXd values(static_cast<Index>(n));

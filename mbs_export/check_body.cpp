@@ -504,8 +504,8 @@ void add_rigid_motions(std::vector<Check>& checks, const ReducedSystem& reduced)
   add_resultants(checks, reduced, *B);
 }
 
-/// K_qq = diag(omega^2), K_mq = 0, and M_qq = I but for MacNeal's method, which has no more mass
-/// than its free modes.
+/// K_qq = diag(omega^2), K_mq = 0, and M_qq = I but for files of version 0.2 by MacNeal's method,
+/// which had no more mass than its free modes.
 void add_fixed_interface_modes(std::vector<Check>& checks, const ReducedSystem& reduced)
 {
   const VectorXd& omega = reduced.fixed_interface_frequencies;

@@ -1,6 +1,6 @@
 /* CMS: component mode synthesis (Guyan, Craig-Bampton and others) of any two symmetric PETSc
-   matrices, as a solver object in the style of PETSc and SLEPc. Plain C; docs/how-to/plugin.md is the
-   guide.
+   matrices, as a solver object in the style of PETSc and SLEPc. Plain C; docs/how-to/plugin.md is
+   the guide.
 
      CMSCreate(comm, &cms);
      CMSSetOperators(cms, K, M, NULL);
@@ -22,10 +22,11 @@ typedef const char* CMSType;
 
 #define CMSGUYAN "guyan"                /* masters only: static condensation */
 #define CMSCRAIGBAMPTON "craig-bampton" /* masters and fixed-interface modes; the default */
-#define CMSMIXED "mixed-interface" /* modes with the masters of CMSSetHeld held, the others free */
-#define CMSRUBIN "rubin"     /* modes of the free body and residual flexibility, consistent mass */
-#define CMSMACNEAL "macneal" /* as Rubin, with the mass of the modes alone; no error estimates */
-#define CMSAUTO "auto" /* Craig-Bampton or mixed interface, whichever costs less for a tolerance */
+#define CMSMIXED "mixed-interface" /* modes with the masters of CMSSetHeld held, the others free \
+                                    */
+#define CMSRUBIN "rubin" /* modes of the free body and residual flexibility, consistent mass */
+#define CMSAUTO "auto"   /* Craig-Bampton or mixed interface, whichever costs less for a tolerance \
+                          */
 
 /* The number of eigenvalues of the full model in a range, and how many of them were found. */
 typedef struct {
@@ -87,14 +88,14 @@ PETSC_EXTERN PetscErrorCode CMSSetHeld(CMS cms, IS held);
 /* Sets the rows of CMSGetTransformation, global indices; NULL (default): all, laid out as K. */
 PETSC_EXTERN PetscErrorCode CMSSetOutput(CMS cms, IS rows);
 
-/* Sets the method. -cms_type guyan|craig-bampton|mixed-interface|rubin|macneal|auto */
+/* Sets the method. -cms_type guyan|craig-bampton|mixed-interface|rubin|auto */
 PETSC_EXTERN PetscErrorCode CMSSetType(CMS cms, CMSType type);
 PETSC_EXTERN PetscErrorCode CMSGetType(CMS cms, CMSType* type);
 /* Set the number of modes, directly, by a cut-off or by a tolerance; the last of the three calls
    counts. -cms_nmodes N | -cms_cutoff F | -cms_tol T -cms_tol_upto F; F in Hz: lambda = (2 pi F)^2.
    A tolerance keeps the estimated relative error of all frequencies up to F below T; the mixed
-   interface takes all modes up to F. CMSAUTO needs a tolerance; Guyan, Rubin and MacNeal cannot
-   keep one and are refused with it. */
+   interface takes all modes up to F. CMSAUTO needs a tolerance; Guyan and Rubin cannot keep
+   one and are refused with it. */
 PETSC_EXTERN PetscErrorCode CMSSetDimensions(CMS cms, PetscInt nmodes);
 PETSC_EXTERN PetscErrorCode CMSSetCutoff(CMS cms, PetscReal f);
 PETSC_EXTERN PetscErrorCode CMSSetTolerance(CMS cms, PetscReal tol, PetscReal upto);
@@ -131,7 +132,7 @@ PETSC_EXTERN PetscErrorCode CMSGetTransformation(CMS cms, Mat* T);
    lowest 20; with a tolerance all up to F. The array is owned by the object. */
 PETSC_EXTERN PetscErrorCode CMSGetFrequencies(CMS cms, PetscInt* n, const PetscReal* f[]);
 /* Returns eta^2 of the same modes, the estimated relative errors of lambda; those of f are half of
-   it. MacNeal's method has no such estimate: n is 0. */
+   it. */
 PETSC_EXTERN PetscErrorCode CMSGetErrors(CMS cms, PetscInt* n, const PetscReal* eta2[]);
 /* Returns the relative errors of lambda of the same modes by rounding, which eta^2 omits. */
 PETSC_EXTERN PetscErrorCode CMSGetRounding(CMS cms, PetscInt* n, const PetscReal* rounding[]);

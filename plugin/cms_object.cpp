@@ -233,11 +233,11 @@ namespace chladni::plugin {
 
 namespace {
 
-constexpr std::array<const char*, 6> type_names{CMSGUYAN, CMSCRAIGBAMPTON, CMSMIXED,
-                                                CMSRUBIN, CMSMACNEAL,      CMSAUTO};
-constexpr std::array types{reduce::Method::guyan,           reduce::Method::craig_bampton,
+constexpr std::array<const char*, 5> type_names{CMSGUYAN, CMSCRAIGBAMPTON, CMSMIXED, CMSRUBIN,
+                                                CMSAUTO};
+constexpr std::array types{reduce::Method::guyan, reduce::Method::craig_bampton,
                            reduce::Method::mixed_interface, reduce::Method::rubin,
-                           reduce::Method::macneal,         reduce::Method::automatic};
+                           reduce::Method::automatic};
 
 }  // namespace
 
@@ -282,9 +282,15 @@ PetscErrorCode CMSSetType(CMS cms, CMSType type)
     PetscCall(PetscObjectChangeTypeName((PetscObject)cms, type_names[i]));
     PetscFunctionReturn(0);
   }
+  PetscCheck(
+      std::strcmp(type, "macneal") != 0, PetscObjectComm((PetscObject)cms),
+      PETSC_ERR_ARG_UNKNOWN_TYPE,
+      "CMS type \"macneal\" is gone, since it was no better than %s; give -cms_type %s, which "
+      "has the same modes",
+      CMSCRAIGBAMPTON, CMSRUBIN);
   SETERRQ(PetscObjectComm((PetscObject)cms), PETSC_ERR_ARG_UNKNOWN_TYPE,
-          "Unknown CMS type \"%s\"; give -cms_type %s, %s, %s, %s, %s or %s", type, CMSGUYAN,
-          CMSCRAIGBAMPTON, CMSMIXED, CMSRUBIN, CMSMACNEAL, CMSAUTO);
+          "Unknown CMS type \"%s\"; give -cms_type %s, %s, %s, %s or %s", type, CMSGUYAN,
+          CMSCRAIGBAMPTON, CMSMIXED, CMSRUBIN, CMSAUTO);
 }
 
 PetscErrorCode CMSGetType(CMS cms, CMSType* type)

@@ -361,7 +361,6 @@ constexpr std::array events_of_phases{
     EventOfPhase{"choice of modes", &Events::errors},
     EventOfPhase{"free-interface modes", &Events::modes},
     EventOfPhase{"residual flexibility", &Events::modes},
-    EventOfPhase{"mass of the modes", &Events::modes},
     EventOfPhase{"projection", &Events::project},
     EventOfPhase{"error estimates", &Events::errors},
     EventOfPhase{"count of eigenvalues", &Events::count},

@@ -74,8 +74,7 @@ std::vector<int> held_rows(const FactoredBody& body, const Support& support, Met
   return rows_of_masters(body.masters, support.held());
 }
 
-/// Of the modes of the body with some masters held or none, and for MacNeal the mass that is not
-/// the projected one.
+/// Makes the basis of the modes of the body with some masters held or none.
 Basis basis_of_own_modes(const FactoredBody& body, const ReductionOptions& options,
                          const Support& support, PhaseListener& phases)
 {
@@ -91,10 +90,6 @@ Basis basis_of_own_modes(const FactoredBody& body, const ReductionOptions& optio
   if (method == Method::mixed_interface) {
     basis.exact_up_to = modes.omega.empty() ? 0.0 : modes.omega.back();
     basis.lambda_left_out = modes.lambda_left_out;
-  }
-  if (method == Method::macneal && modes.n_modes() > 0) {
-    phases.begin("mass of the modes");
-    basis.mass = macneal_mass(basis.Q, body.M_blocks, modes);
   }
   return basis;
 }

@@ -1,15 +1,14 @@
 #pragma once
 
 #include <limits>
-#include <optional>
 
 #include "reduce/reduction.hpp"
 
 namespace chladni::reduce {
 
 /// True for the methods whose modes are those of the body with free masters and which therefore
-/// need all of K and M: the mixed interface, Rubin's, MacNeal's, and `automatic`, which may become
-/// the mixed interface.
+/// need all of K and M: the mixed interface, Rubin's, and `automatic`, which may become the mixed
+/// interface.
 bool has_free_masters(Method method);
 
 /// @throws chladni::Error when a tolerance is wanted of a method that cannot keep one.
@@ -21,7 +20,6 @@ WholeSystem whole_system(const FactoredBody& body);
 /// The basis that a method makes.
 struct Basis {
   CraigBamptonBasis Q;
-  std::optional<Eigen::MatrixXd> mass = {};  ///< M_r, set only where the method does not project it
   /// rad/s; up to here the basis holds the modes of the supported body themselves. 0: it holds
   /// none.
   double exact_up_to = 0.0;

@@ -110,7 +110,7 @@ Certified estimated(const Reduced& reduced, const ReductionOptions& options, con
                       .modes = modes_everywhere(support, reduced.model, wanted, body.comm())};
   Certificate& certificate = certified.certificate;
   ReducedPairs pairs = leading_pairs(certified.modes, range);
-  if (reduced.is_projected && !pairs.lambda.empty()) {
+  if (!pairs.lambda.empty()) {
     ErrorEstimates errors = error_estimates(
         {.K_ss = body.K_ss, .Q_CB = reduced.Q_CB, .K = body.K_blocks, .M = body.M_blocks}, pairs,
         purpose);

@@ -60,7 +60,6 @@ struct Reduced {
   const FactoredBody& body;
   const CraigBamptonBasis& Q_CB;
   const ReducedModel& model;
-  bool is_projected;  ///< M_r = Q_CB^T M Q_CB; without it residuals have no meaning
 };
 
 /// A certificate with error estimates, and what the count of eigenvalues needs further.

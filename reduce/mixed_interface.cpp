@@ -500,22 +500,4 @@ FixedInterfaceModes residual_modes(const WholeSystem& body, const MixedInterface
   return ritz_modes(std::move(shapes), body);
 }
 
-MatrixXd macneal_mass(const CraigBamptonBasis& Q, const Blocks& M, const MixedInterfaceModes& modes)
-{
-  // Z of the masters: X_s^T (M_ss Psi + M_sm) + X_m^T (M_ms Psi + M_mm)
-  const MatrixXd at_slaves = inertial_coupling(modes.X_s, Q.Psi, M);
-  const MatrixXd M_of_masters =
-      linear::replicate(M.mm) + linear::inner_product_sparse(Q.Psi, M.sm).transpose();
-  const MatrixXd at_masters = linear::product(modes.X_m.transpose(), M_of_masters);
-  // and of the modes: (M_ss X_s + M_sm X_m)^T Phi
-  petsc::Matrix momentum = linear::uninitialized_dense(M.ss, modes.n_modes());
-  linear::SparseProduct(M.ss).apply(modes.X_s, momentum);
-  linear::add_sparse_product(M.sm, modes.X_m, momentum);
-  const MatrixXd of_modes = linear::inner_product(momentum, Q.modes->Phi);
-  MatrixXd Z(modes.n_modes(), at_masters.cols() + of_modes.cols());
-  Z.leftCols(at_masters.cols()) = at_slaves + at_masters;
-  Z.rightCols(of_modes.cols()) = of_modes;
-  return linear::product(Z.transpose(), Z);
-}
-
 }  // namespace chladni::reduce

@@ -32,7 +32,7 @@ struct MixedInterfaceModes {
 
 /// Computes modes with free masters by number (of elastic modes), up to a frequency, or all in the
 /// range of a tolerance. Only the factor of K_ss is needed.
-/// @param held  rows among the masters, ascending; empty for the modes of Rubin and MacNeal
+/// @param held  rows among the masters, ascending; empty for Rubin's modes
 /// @note   Collective, as are all functions of this header.
 /// @throws chladni::Error when there are fewer modes.
 MixedInterfaceModes mixed_interface_modes(const WholeSystem& body, Mat Psi,
@@ -51,12 +51,5 @@ MixedInterfaceModes mixed_interface_modes(const WholeSystem& body, Mat Psi,
 /// Source: Herting, Finite Elem. Anal. Des. 1 (1985) 153; Hintz, AIAA J. 13 (1975) 1007; Rubin,
 /// AIAA J. 13 (1975) 995; Craig and Chang, AIAA J. 14 (1976) 1633.
 FixedInterfaceModes residual_modes(const WholeSystem& body, const MixedInterfaceModes& modes);
-
-/// MacNeal's mass matrix on Rubin's basis: M_r = Z^T Z with Z = X^T M Q, the mass of the free modes
-/// alone; the residual flexibility is massless. It is no Galerkin projection, so frequencies may be
-/// too low.
-/// Source: MacNeal, Computers & Structures 1 (1971) 581.
-Eigen::MatrixXd macneal_mass(const CraigBamptonBasis& Q, const Blocks& M,
-                             const MixedInterfaceModes& modes);
 
 }  // namespace chladni::reduce

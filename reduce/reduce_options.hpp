@@ -7,13 +7,13 @@
 namespace chladni::reduce {
 
 /// The method of reduction. `automatic` needs a tolerance and takes the method that costs least.
-enum class Method { guyan, craig_bampton, mixed_interface, rubin, macneal, automatic };
+enum class Method { guyan, craig_bampton, mixed_interface, rubin, automatic };
 
 /// The name of a method in scene files and options.
 constexpr std::string_view name_of(Method method)
 {
-  constexpr std::array<std::string_view, 6> names{"guyan", "craig-bampton", "mixed-interface",
-                                                  "rubin", "macneal",       "auto"};
+  constexpr std::array<std::string_view, 5> names{"guyan", "craig-bampton", "mixed-interface",
+                                                  "rubin", "auto"};
   return names[static_cast<std::size_t>(method)];
 }
 
@@ -26,9 +26,8 @@ struct ModesByTolerance {
 };
 
 /// The method and the number of its modes: fixed-interface modes, modes of the supported body
-/// (mixed interface), or free-interface modes (Rubin, MacNeal). Exactly one of `modes`, `cutoff_Hz`
-/// and `tolerance` is set, none for Guyan; Guyan, Rubin and MacNeal take no
-/// tolerance.
+/// (mixed interface), or free-interface modes (Rubin). Exactly one of `modes`, `cutoff_Hz` and
+/// `tolerance` is set, none for Guyan; Guyan and Rubin take no tolerance.
 struct ReduceOptions {
   Method method = Method::craig_bampton;
   std::optional<int> modes = {};

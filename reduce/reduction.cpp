@@ -103,7 +103,6 @@ Made made(const FactoredBody& body, const ReductionOptions& options, const Suppo
   Basis basis = make_basis(body, options, support, phases);
   phases.begin("projection");
   ReducedModel model = project(basis.Q, body.K_blocks, body.M_blocks);
-  if (basis.mass) model.M = *basis.mass;
   Made made{.basis = std::move(basis), .model = std::move(model)};
   if (!options.responses || options.basis.method != Method::mixed_interface) return made;
   phases.begin("responses");
@@ -130,7 +129,7 @@ Reduction reduction(FactoredBody& body, const ReductionOptions& wanted, const Su
   auto [basis, model, responses] = made(body, options, support, phases);
   if (basis.exact_up_to > 0.0 && !options.basis.tolerance && !options.basis.certified_up_to_Hz)
     options.basis.certified_up_to_Hz = basis.exact_up_to / (2.0 * std::numbers::pi);
-  const Reduced reduced{.body = body, .Q_CB = basis.Q, .model = model, .is_projected = !basis.mass};
+  const Reduced reduced{.body = body, .Q_CB = basis.Q, .model = model};
   const bool counts = count.is_possible() && count.is_due(basis.Q.n_modes());
   phases.begin("error estimates");
   Certified certified =

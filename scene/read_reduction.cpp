@@ -89,12 +89,16 @@ namespace {
 reduce::Method method_of(const Table& table)
 {
   using enum reduce::Method;
+  if (table.text("method") == "macneal") {
+    table.refuse("method",
+                 "MacNeal's method is gone, since it was no better than Craig-Bampton; take "
+                 "\"rubin\", which has the same modes");
+  }
   return table.choice<reduce::Method>("method", {{"auto", automatic},
                                                  {"craig-bampton", craig_bampton},
                                                  {"mixed-interface", mixed_interface},
                                                  {"guyan", guyan},
-                                                 {"rubin", rubin},
-                                                 {"macneal", macneal}});
+                                                 {"rubin", rubin}});
 }
 
 void refuse_without_tolerance(const Table& table, const char* key, reduce::Method method)

@@ -24,7 +24,7 @@ def section(found, row, header):
         yield row(one["method"], mesh, one["dofs"], one["modes"], one["size"], f"{one['cost_s']:.2f}", told(one["error_fe"]), told(one["error_exact"]))
 
 
-COLOURS = {"guyan": "k", "craig-bampton": "#2166ac", "rubin": "#1b7837", "macneal": "#e08214", "mixed-interface": "#b2182b"}
+COLOURS = {"guyan": "k", "craig-bampton": "#2166ac", "rubin": "#1b7837", "mixed-interface": "#b2182b"}
 FLOOR = 1e-8  # errors below are drawn there
 AXES = [("cost_s", "CPU time, s"), ("size", "coordinates")]
 ERRORS = [("error_fe", "error against the FE model"), ("error_exact", "error against the exact plate")]

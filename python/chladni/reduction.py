@@ -94,7 +94,7 @@ class CMS:
         self._cms.set_output(None if rows is None else _indices(rows))
 
     def set_type(self, name: str) -> None:
-        """ "guyan", "craig-bampton", "mixed-interface", "rubin", "macneal" or, for a tolerance, "auto"."""
+        """ "guyan", "craig-bampton", "mixed-interface", "rubin" or, for a tolerance, "auto"."""
         self._cms.set_type(name)
 
     def get_type(self) -> str:
@@ -233,7 +233,7 @@ def reduce(K, M, masters: Sequence[int], *, C=None, method: str = "craig-bampton
     Args:
         K, M, C: as in `CMS`
         masters: global rows, on every rank the whole list
-        method: "craig-bampton", "mixed-interface", "guyan", "rubin", "macneal" or, for a tolerance, "auto"
+        method: "craig-bampton", "mixed-interface", "guyan", "rubin" or, for a tolerance, "auto"
         modes, cutoff_Hz, tolerance with up_to_Hz: how many modes, one of the three; 20 if nothing is said
         held: of the masters those that the support holds, on every rank the whole list
         count: whether eigenvalues of the full model are counted, which makes bounds of the estimates

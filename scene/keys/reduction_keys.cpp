@@ -29,7 +29,7 @@ constexpr Key reduction_rows[] = {
      "auto with a tolerance, else required",
      "of the reduction: `auto` takes what costs least for a tolerance",
      {},
-     "auto | craig-bampton | mixed-interface | guyan | rubin | macneal"},
+     "auto | craig-bampton | mixed-interface | guyan | rubin"},
     {"reduce.modes",
      integer,
      "or `cutoff_Hz`, `tolerance`",

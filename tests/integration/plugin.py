@@ -181,9 +181,6 @@ def class_of_the_compiled_example(plugin):
         yield expect("eta^2 estimates the true errors",
                      np.all((effectivity > 0.7) & (effectivity < 1.01)), effectivity.round(2))  # fmt: skip
     yield expect("equal on 1 and 2 ranks", np.allclose(tables[0][:, 1], tables[1][:, 1], rtol=1e-6))
-    without = plugin.run([plugin.examples / "membrane", "-cms_type", "macneal"])
-    rows = [line.split() for line in without[without.index("true error") :].splitlines()[1:9]]
-    yield expect("MacNeal's modes have no estimate", len(rows) == 8 and all(row[3:] == ["-"] for row in rows), rows)
     helped = plugin.run([plugin.examples / "membrane", "-help", "-log_view", "-cms_sylvester",
                          "-cms_pc_factor_mat_solver_type", "mumps-metis",
                          "-cms_sylvester_pc_factor_mat_solver_type", "mumps"])  # fmt: skip

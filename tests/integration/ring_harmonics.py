@@ -139,11 +139,10 @@ def squeal(programs):
 
 
 def methods(programs):
-    """Guyan, Rubin, MacNeal, a tolerance, and responses of the whole model take the same masters."""
+    """Guyan, Rubin, a tolerance, and responses of the whole model take the same masters."""
     cases = {
         "guyan": ('method = "craig-bampton"\nmodes = 20', 'method = "guyan"'),
         "rubin": ('method = "craig-bampton"', 'method = "rubin"'),
-        "macneal": ('method = "craig-bampton"', 'method = "macneal"'),
         "tolerance": ("modes = 20\n", "tolerance = 1e-2\nup_to_Hz = 4000.0\n"),
     }
     for name, change in cases.items():

@@ -213,8 +213,6 @@ def same(programs, shape, sectors, mpirun):
     split = split_of_pairs(np.sort(omega))
     yield f"{name}: pairs split by {split:.1e}", split < 1e-12
     yield from ((line, False) for line in failed_checks(programs, part.path))
-    if shape["method"] == "macneal":  # whose mass is no projection
-        return
     if shape["method"] == "mixed-interface":  # which has all of them
         counts = [(c.reduced["modes_found"], c.reduced["modes_expected"]) for c in (part, whole)]
         yield f"{name}: all modes of the range are there", all(n == expected > 20 for n, expected in counts)
@@ -413,7 +411,7 @@ def means(programs):
 
 def twisted(programs):
     """A sector without a mirror, by all methods: pairs are found among modes that a solver mixes."""
-    for method in ("craig-bampton", "mixed-interface", "rubin", "macneal"):
+    for method in ("craig-bampton", "mixed-interface", "rubin"):
         frequencies = []
         for n_made, sectors in ((6, ""), (1, "sectors = 6")):
             with tempfile.TemporaryDirectory() as name:
@@ -552,10 +550,9 @@ def refused(programs):
 def main(programs, mpirun):
     good = True
     fewer = ANNULUS | {"harmonics": 3}  # than the sectors have: some of theirs have no master
-    mixed, rubin, macneal = (shape | {"method": method} for shape, method in (
-        (HAT, "mixed-interface"), (ANNULUS, "rubin"), (ANNULUS, "macneal")))
+    mixed, rubin = (shape | {"method": method} for shape, method in ((HAT, "mixed-interface"), (ANNULUS, "rubin")))
     for shape, sectors, launcher in ((ANNULUS, 8, None), (HAT, 6, mpirun), (fewer, '"auto"', None),
-                                     (mixed, 6, None), (rubin, 8, None), (macneal, 8, None)):
+                                     (mixed, 6, None), (rubin, 8, None)):
         for line, holds in same(programs, shape, sectors, launcher):
             print(line if holds else f"FAILED: {line}")
             good = good and holds

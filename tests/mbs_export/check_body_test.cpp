@@ -181,7 +181,7 @@ TEST(CheckReduced, FailsFixedInterfaceModesThatAreNotWhatTheFormatSays)
   finds("fixed-interface modes", Verdict::fail,
         [](ReducedSystem& s) { s.K(1, 8) = s.K(8, 1) = 1e-3 * s.K(8, 8); });
   finds("mass of these modes", Verdict::fail, [](ReducedSystem& s) { s.M(8, 8) *= 1.001; });
-  // Less than 1 is what MacNeal's method leaves.
+  // Less than 1 is what MacNeal's method of version 0.2 left.
   finds("mass of these modes", Verdict::warn, [](ReducedSystem& s) { s.M(8, 8) *= 0.9; });
 }
 

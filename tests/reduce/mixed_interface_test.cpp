@@ -126,19 +126,6 @@ TEST(Rubin, HasCertifiedFrequenciesUnderASupport)
   }
 }
 
-TEST(MacNeal, KeepsTheModesAndGivesTheRestNoMass)
-{
-  ReducedChain reduced;
-  reduced.Q.modes = residual_modes(reduced.body, reduced.free);
-  const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
-  const MatrixXd M = macneal_mass(reduced.Q, reduced.M, reduced.free);
-  const std::vector<double> lambda = eigenvalues(model.K, M);
-  for (int k = 1; k <= n_modes; ++k) EXPECT_NEAR(lambda[k] / exact(k), 1.0, 1e-9) << "mode " << k;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(M);
-  EXPECT_NEAR(mass.eigenvalues()[1], 0.0, 1e-12);  // 10 coordinates, 8 modes
-  EXPECT_GT(mass.eigenvalues()[2], 1e-6);
-}
-
 /// 4 sin^2((2 k - 1) pi / (2 (2 n - 1))), k = 1, 2, ..., of the chain with one end held.
 double exact_with_end_held(int k)
 {

@@ -32,7 +32,7 @@ void check_spectrum(const Reference& exact, const Answer& answer, Failures& fail
 /// A refusal, and the reason that it gives.
 Failures check_refusal(const Pencil& pencil, const Answer& answer);
 
-/// Everything that a projection promises; of MacNeal, which is none, what is left of it.
+/// Everything that a projection promises.
 Failures check(const Reference& exact, const Reduction& how, const Answer& answer);
 
 /// n eigenvalues closest to the target, and residuals of all.

@@ -233,7 +233,7 @@ Reduction draw_reduction(Dice& dice, const Reference& exact)
             .up_to_Hz =
                 in_Hz(exact.whole.lambda[dice.integer(n_rigid, n - 1)] * dice.uniform(0.9, 1.5))};
   }
-  return {.type = dice.chance(0.8) ? CMSRUBIN : CMSMACNEAL, .modes = dice.integer(1, few)};
+  return {.type = CMSRUBIN, .modes = dice.integer(1, few)};
 }
 
 std::string words_of(const Reduction& how)

@@ -2,8 +2,7 @@
 // against dense matrices; on several ranks also against one.
 //   random_pencils --count 10000 --sectors 1000 --seed 1 [--known "refused"]
 // A property in --known may fail for one in twenty: round-off decides which pencils are
-// refused, and how many shapes of Rubin's and MacNeal's bases are independent, on other ranks
-// otherwise.
+// refused, and how many shapes of Rubin's basis are independent, on other ranks otherwise.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -18,7 +18,7 @@ namespace chladni::strangers {
 namespace {
 
 const std::vector<std::string> ways = {"Guyan",     "Number", "AllModes", "Cutoff",
-                                       "Tolerance", "Rubin",  "MacNeal",  "Eps"};
+                                       "Tolerance", "Rubin",  "Eps"};
 
 const Pencil& pencil_named(const std::string& name)
 {
@@ -60,7 +60,6 @@ Reduction reduction_of(const Reference& exact, const std::string& way)
     if (way == "Tolerance") return {.tolerance = 1e-3, .up_to_Hz = 0.2};
     if (way == "Cutoff") return {.cutoff_Hz = 0.3};
     if (way == "Rubin") return {.type = CMSRUBIN, .modes = 3};
-    if (way == "MacNeal") return {.type = CMSMACNEAL, .modes = 3};
     return {.modes = 5};
   }
   const std::size_t n_held = exact.held.lambda.size(), n = exact.whole.lambda.size();
@@ -78,7 +77,7 @@ Reduction reduction_of(const Reference& exact, const std::string& way)
             .up_to_Hz = frequency_in_gap(exact.whole.lambda, n_rigid, n_rigid + (n - n_rigid) / 4)};
   }
   const int few = static_cast<int>((n - n_rigid) / 4);
-  return {.type = way == "Rubin" ? CMSRUBIN : CMSMACNEAL, .modes = std::clamp(few, 1, 10)};
+  return {.type = CMSRUBIN, .modes = std::clamp(few, 1, 10)};
 }
 
 /// What the first rank says, on all of them.
@@ -96,7 +95,7 @@ Reduction told(Reduction how)
   std::array<char, 32> type{};
   std::string_view(how.type).copy(type.data(), type.size() - 1);
   MPI_Bcast(type.data(), static_cast<int>(type.size()), MPI_CHAR, 0, PETSC_COMM_WORLD);
-  for (const char* known : {CMSGUYAN, CMSCRAIGBAMPTON, CMSRUBIN, CMSMACNEAL})
+  for (const char* known : {CMSGUYAN, CMSCRAIGBAMPTON, CMSRUBIN})
     if (std::string_view(type.data()) == known) how.type = known;
   MPI_Bcast(&how.modes, 1, MPI_INT, 0, PETSC_COMM_WORLD);
   for (double* value : {&how.cutoff_Hz, &how.tolerance, &how.up_to_Hz})
