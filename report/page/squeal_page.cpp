@@ -68,8 +68,7 @@ Eigen::MatrixXd levels(const squeal::Spectrogram& of, Index every_t, Index every
   return dB;
 }
 
-/// The spectrogram in decibels, thinned for a page, with the frequencies and the orders of its
-/// lines.
+/// The spectrogram in decibels, thinned for a page, with the frequencies of its lines.
 Json spectrogram_page(const squeal::Spectrogram& spectrogram)
 {
   const squeal::Spectrogram& of = spectrogram;
@@ -78,18 +77,13 @@ Json spectrogram_page(const squeal::Spectrogram& spectrogram)
   const auto some = [](const Eigen::VectorXd& x, Index every) -> Eigen::VectorXd {
     return x(Eigen::seqN(0, x.size() / every, every));
   };
-  std::vector<Json> lines, orders;
+  std::vector<Json> lines;
   for (Index j = 0; j < of.line_Hz.cols(); ++j) {
-    // Lines a thousandth as strong as the strongest of their window are no tracks.
+    // Lines a thousandth as strong as the strongest of their window are left out.
     const auto weak = of.line_amplitude.col(j).array() < 1e-3 * of.line_amplitude.col(0).array();
     const Eigen::VectorXd f_Hz =
         weak.select(std::numeric_limits<double>::quiet_NaN(), of.line_Hz.col(j));
     lines.push_back(rounded(f_Hz));
-    // A disc that nearly stands has no orders.
-    const auto turns = of.speed.array() > 1e-3 * of.speed.maxCoeff();
-    const Eigen::VectorXd order = 2.0 * std::numbers::pi * f_Hz.cwiseQuotient(of.speed);
-    orders.push_back(
-        rounded(Eigen::VectorXd(turns.select(order, std::numeric_limits<double>::quiet_NaN()))));
   }
   Eigen::VectorXd t = some(of.t, every_t);
   return Json::object({{"map_t", rounded(t)},
@@ -99,8 +93,7 @@ Json spectrogram_page(const squeal::Spectrogram& spectrogram)
                        {"frequency_Hz", rounded(some(of.frequency_Hz, every_f))},
                        {"level_dB", rounded_rows(levels(of, every_t, every_f))},
                        {"range_dB", range_dB},
-                       {"line_Hz", Json::array(lines)},
-                       {"line_order", Json::array(orders)}});
+                       {"line_Hz", Json::array(lines)}});
 }
 
 constexpr double two_pi = 2.0 * std::numbers::pi;

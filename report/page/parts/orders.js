@@ -1,4 +1,4 @@
-// What a transient does while the rotation changes: spectrogram, waterfall with orders, strongest lines and their orders.
+// What a transient does while the rotation changes: spectrogram, waterfall with orders, strongest lines.
 
 // Orders of the rotation in round numbers that lie in the picture at the end of the run.
 function roundOrders({speed}, highest_Hz) {
@@ -109,48 +109,18 @@ function orderPictures(of) {
                   element("label", {}, "range of the levels ", range)), made];
 }
 
-// The lines of all windows as tracks, the longest first: each line goes on with the one that is nearest in frequency, within 5 %.
-function tracksOf(line_Hz) {
-  const tracks = [];
-  for (let i = 0; i < line_Hz[0].length; ++i) {
-    const lines = line_Hz.map((row, rank) => ({rank, f_Hz: row[i]})).filter(({f_Hz}) => f_Hz > 0), taken = new Set();
-    const pairs = lines.flatMap(line => tracks.map(track => ({line, track, away: Math.abs(line.f_Hz / track.last_Hz - 1)})))
-      .filter(({away}) => away < 0.05).sort((a, b) => a.away - b.away);
-    const go = (line, track) => {
-      taken.add(line).add(track);
-      track.last_Hz = line.f_Hz;
-      track.ranks.set(i, line.rank);
-    };
-    for (const {line, track} of pairs) if (!taken.has(line) && !taken.has(track)) go(line, track);
-    for (const line of lines.filter(line => !taken.has(line))) go(line, tracks[tracks.push({ranks: new Map()}) - 1]);
-  }
-  return tracks.sort((a, b) => b.ranks.size - a.ranks.size);
+// The strongest line of each window is a square; weaker ones are dots.
+function lineSeries(t, line_Hz) {
+  return line_Hz.map((row, rank) => ({x: t, y: row.map(f_Hz => f_Hz ?? NaN), line: false, colour: rank === 0 ? 5 : 0, marker: rank === 0 ? "square" : "dot",
+                                      name: ["strongest line", "weaker lines"][rank] ?? ""}))
+    .filter(({y}) => y.some(Number.isFinite));
 }
 
-// "1695 Hz", or "210 to 420 Hz" of a track that moves.
-function trackName({ranks}, line_Hz) {
-  const all = [...ranks].map(([i, rank]) => line_Hz[rank][i]), low = Math.min(...all), high = Math.max(...all);
-  return high < 1.05 * low ? `${formatted(all.at(-1))} Hz` : `${formatted(low)} to ${formatted(high)} Hz`;
-}
-
-// A physical line keeps its colour whichever rank it has; a broader ground marks the strongest.
-function trackSeries(t, line_Hz, values) {
-  const of = tracksOf(line_Hz), n_named = Math.min(5, of.filter(({ranks}) => ranks.size > 0.05 * t.length).length);
-  const named = of.slice(0, n_named).sort((a, b) => a.last_Hz - b.last_Hz);
-  const tracks = [...named, ...of.slice(n_named)].map((track, k) => ({
-    x: t, y: t.map((_, i) => track.ranks.has(i) ? values[track.ranks.get(i)][i] ?? NaN : NaN), line: false, marker: "dot",
-    colour: k < n_named ? k : 5, said: trackName(track, line_Hz), name: k < n_named ? trackName(track, line_Hz) : k === n_named ? "other lines" : ""}));
-  const strongest = {x: t, y: values[0].map(v => v ?? NaN), colour: 5, line: false, marker: "square", name: "strongest line"};
-  return [strongest, ...tracks].filter(({y}) => y.some(Number.isFinite));
-}
-
-function orderFigures({t, speed, envelope, line_Hz, line_order}) {
-  const time = {label: "time, s"}, lines = values => trackSeries(t, line_Hz, values);
+function orderFigures({t, speed, envelope, line_Hz}) {
+  const time = {label: "time, s"};
   return [
     plot({title: "Largest pad velocity over the run", x: time, y: {label: "pad velocity, m/s", log: true},
           series: [{x: t, y: envelope, colour: 0}]}),
     plot({title: "Rotation speed", x: time, y: speedAxis, series: [{x: t, y: speed, colour: 1}]}),
-    plot({title: "Strongest lines of the spectrum over the time", x: time, y: {label: "frequency, Hz"}, series: lines(line_Hz)}),
-    plot({title: "Order tracks: frequency of the strongest lines divided by that of the rotation", x: time,
-          y: {label: "order, per revolution"}, series: lines(line_order)})];
+    plot({title: "Strongest lines of the spectrum over the time", x: time, y: {label: "frequency, Hz"}, series: lineSeries(t, line_Hz)})];
 }
