@@ -51,6 +51,35 @@ std::string suggestion(const CLI::App& app, const std::vector<std::string>& word
   return "";
 }
 
+/// An option of version 0.2 that is no more, or one of its values, and what to do in its place.
+struct GoneOption {
+  std::string_view word, value, instead;
+};
+
+constexpr GoneOption gone_options[] = {
+    {"--detach", "",
+     "the seal is inside of the file; for a reader that wants HDF5 at byte 0, copy the groups to a "
+     "file of their own (docs/reference/file_formats.md, The seal)"},
+    {"--format", "mat",
+     "MATLAB reads the body file itself by h5read, and two lines of Python write a .mat for Octave "
+     "(docs/how-to/read_a_body.md)"},
+};
+
+/// `; --WORD is gone: ...` for the first of the words that version 0.2 knew.
+std::string told_of_gone(const std::vector<std::string>& words)
+{
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::size_t end = words[i].find('=');
+    const std::string word = words[i].substr(0, end);
+    const std::string next = i + 1 < words.size() ? words[i + 1] : "";
+    const std::string value = end == std::string::npos ? next : words[i].substr(end + 1);
+    for (const auto& [gone, of, instead] : gone_options)
+      if (word == gone && (of.empty() || value == of))
+        return fmt::format("; {}{}{} is gone: {}", gone, of.empty() ? "" : " ", of, instead);
+  }
+  return "";
+}
+
 }  // namespace
 
 std::optional<int> parse_arguments(CLI::App& app, std::vector<std::string> words)
@@ -60,7 +89,8 @@ std::optional<int> parse_arguments(CLI::App& app, std::vector<std::string> words
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
-    const std::string near = suggestion(app, said);
+    const std::string gone = told_of_gone(said);
+    const std::string near = gone.empty() ? suggestion(app, said) : gone;
     if (error.get_exit_code() == 0 || near.empty())
       return app.exit(error) == 0 ? exit_ok : exit_usage;
     app.exit(CLI::ConversionError(error.what() + report::printable(near)));

@@ -11,7 +11,6 @@ namespace chladni::cli {
 /// Arguments of the subcommand `seal`.
 struct SealArguments {
   std::string file;
-  bool detach = false;  ///< write the seal to FILE.seal; FILE is then plain HDF5
 };
 
 /// Declares the subcommand `seal` of `app`.

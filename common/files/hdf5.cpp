@@ -138,7 +138,6 @@ void Writer::commit()
   const bool closed = H5Fclose(std::exchange(file_, -1)) >= 0;
   if (!flushed || !closed || !write_seal(replacement_.temporary())) replacement_.fail();
   replacement_.commit();
-  remove_detached_seal(path());
 }
 
 void Writer::group(const std::string& name)

@@ -45,11 +45,12 @@ void put_address(std::fstream& file, std::size_t at, std::uint64_t address)
 }
 
 /// Writes into the superblock of an HDF5 file (versions 0 and 1, libhdf5's default) that HDF5
-/// begins at byte `start`, and shifts its end address likewise. libhdf5 finds the beginning itself;
+/// begins behind the seal, and shifts its end address likewise. libhdf5 finds the beginning itself;
 /// other readers trust the superblock. Newer superblocks are left unchanged.
 /// @return false if it could not be read or written
-bool place_superblock(const std::string& path, std::size_t start)
+bool place_superblock(const std::string& path)
 {
+  constexpr std::size_t start = seal_size;
   std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
   // Signature (8), versions (5), size of addresses (1), ...; version 1 has four bytes more.
   std::array<char, 14> beginning{};
@@ -77,16 +78,6 @@ std::string seal_text(std::uint64_t length, std::uint64_t digest)
       "changed it on purpose: chladni seal FILE\n",
       seal_begins, length, digest, seal_size);
   return fmt::format("{:<{}}\n", text, seal_size - 1);
-}
-
-/// The same beside a file, where its size does not matter.
-std::string detached_text(std::uint64_t length, std::uint64_t digest)
-{
-  return fmt::format(
-      "{}{}\nxxh64 {:016x} of all bytes\nOf the HDF5 file of this name without .seal. When you "
-      "have "
-      "changed it on purpose: chladni seal --detach FILE\n",
-      seal_begins, length, digest);
 }
 
 /// Of all that follows in the stream, in pieces that fit into a cache.
@@ -120,65 +111,21 @@ std::uint64_t sealed_length(std::string_view seal)
   return length;
 }
 
-[[noreturn]] void refuse(const std::string& path, SealPlace place, const std::string& reason)
+[[noreturn]] void refuse(const std::string& path, const std::string& reason)
 {
-  const std::string command = place == SealPlace::inside ? "seal" : "seal --detach";
   throw Error(fmt::format(
       "{}: is not as it was written: {}. Make it anew or take a copy; if it was changed "
-      "on purpose, `chladni {} {}` (or `squeal {}`) accepts it",
-      path, reason, command, path, command));
+      "on purpose, `chladni seal {}` (or `squeal seal`) accepts it",
+      path, reason, path));
 }
 
-/// The text of FILE.seal, or what there is of it; nothing where there is no such file.
-std::string read_detached(const std::string& path)
-{
-  const std::string beside = detached_seal(path);
-  if (!std::filesystem::exists(beside)) return "";
-  regular_file_size(beside);
-  std::ifstream file(beside, std::ios::binary);
-  const std::string text = beginning(file);
-  if (!text.starts_with(seal_begins)) {
-    throw Error(
-        fmt::format("{}: is no seal of Chladni, or damaged; `chladni seal --detach {}` makes it "
-                    "anew, and without it the file is read like others'",
-                    beside, path));
-  }
-  return text;
-}
-
-/// Compares a file that begins as HDF5 does with the seal beside it.
-/// @return whether there is one
-bool check_detached_seal(const std::string& path)
-{
-  const std::string seal = read_detached(path);
-  if (seal.empty()) return false;
-  const std::uint64_t length = std::filesystem::file_size(path);
-  if (length != sealed_length(seal)) {
-    refuse(path, SealPlace::beside,
-           fmt::format("it has {} bytes and had {}", length, sealed_length(seal)));
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (seal != detached_text(length, digest_of(file)))
-    refuse(path, SealPlace::beside, "its bytes are not those that were sealed");
-  return true;
-}
-
-/// FILE.seal for what `bytes_of` holds, which is to be the file `path`.
-void write_detached_seal(const std::string& path, const std::string& bytes_of)
-{
-  std::ifstream file(bytes_of, std::ios::binary);
-  write_text(detached_seal(path),
-             detached_text(std::filesystem::file_size(bytes_of), digest_of(file)));
-}
-
-/// Copies HDF5 from byte `start` of a file on to byte `target` of the other, which says so.
-bool copy_hdf5(const std::string& from, std::size_t start, const std::string& to,
-               std::size_t target)
+/// Copies HDF5 from byte `start` of a file on to the other, behind the place of a seal.
+bool copy_hdf5(const std::string& from, std::size_t start, const std::string& to)
 {
   std::ifstream file(from, std::ios::binary);
   std::ofstream copy(to, std::ios::binary);
-  copy << std::string(target, '\n') << file.seekg(std::streamoff(start)).rdbuf() << std::flush;
-  return copy.good() && place_superblock(to, target);
+  copy << std::string(seal_size, '\n') << file.seekg(std::streamoff(start)).rdbuf() << std::flush;
+  return copy.good() && place_superblock(to);
 }
 
 /// @throws chladni::Error about `path` when its copy is not to be read.
@@ -223,7 +170,7 @@ bool check_seal(const std::string& path)
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(fmt::format("{}: no such file, or not readable", path));
   const std::string seal = beginning(file);
-  if (seal.starts_with(hdf5_begins)) return check_detached_seal(path);
+  if (seal.starts_with(hdf5_begins)) return false;
   if (!seal.starts_with(seal_begins)) {
     throw Error(fmt::format(
         "{}: is neither an HDF5 file nor one that Chladni sealed, or its beginning is damaged",
@@ -231,40 +178,21 @@ bool check_seal(const std::string& path)
   }
   const std::uint64_t length = std::filesystem::file_size(path);
   if (length != sealed_length(seal)) {
-    refuse(path, SealPlace::inside,
-           fmt::format("it has {} bytes and had {}", length, sealed_length(seal)));
+    refuse(path, fmt::format("it has {} bytes and had {}", length, sealed_length(seal)));
   }
   if (seal != seal_text(length, digest_of(file)))
-    refuse(path, SealPlace::inside, "its bytes are not those that were sealed");
+    refuse(path, "its bytes are not those that were sealed");
   return true;
 }
 
-std::string detached_seal(const std::string& path)
-{
-  return path + ".seal";
-}
-
-void remove_detached_seal(const std::string& path)
-{
-  const std::string beside = detached_seal(path);
-  std::error_code absent;
-  if (!std::filesystem::is_regular_file(beside, absent)) return;
-  std::ifstream file(beside, std::ios::binary);
-  if (beginning(file).starts_with(seal_begins)) std::filesystem::remove(beside, absent);
-}
-
-void seal_file(const std::string& path, SealPlace place)
+void seal_file(const std::string& path)
 {
   const std::size_t start = start_of_hdf5(path);
   Replacement replacement(path);
   const std::string& copy = replacement.temporary();
-  if (!copy_hdf5(path, start, copy, place == SealPlace::inside ? seal_size : 0)) replacement.fail();
-  if (place == SealPlace::inside && !write_seal(copy)) replacement.fail();
+  if (!copy_hdf5(path, start, copy) || !write_seal(copy)) replacement.fail();
   require_readable(path, copy);
-  // The seal beside comes first and goes last: it is not asked where there is one inside.
-  if (place == SealPlace::beside) write_detached_seal(path, copy);
   replacement.commit();
-  if (place == SealPlace::inside) remove_detached_seal(path);
 }
 
 }  // namespace chladni::files

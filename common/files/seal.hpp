@@ -13,30 +13,19 @@ namespace chladni::files {
 /// Bytes; the smallest user block of HDF5.
 constexpr std::size_t seal_size = 512;
 
-/// The place of a seal: in the first bytes of the file, or in a small file FILE.seal beside it. In
-/// the latter case the file is HDF5 from its first byte on, for readers that do not search for HDF5
-/// further on.
-enum class SealPlace { inside, beside };
-
 /// Seals a file whose first 512 bytes are reserved for the seal.
 /// @return false if it could not be read or written
 bool write_seal(const std::string& path);
 
-/// Compares a file with its seal, inside or beside it.
-/// @return true if it has one. Without a seal inside, a file must begin as HDF5, as files of the
-///         first release and of other programs do.
+/// Compares a file with its seal.
+/// @return true if it has one. Without a seal, a file must begin as HDF5, as files of the first
+///         release and of other programs do.
 /// @throws chladni::Error when it was damaged, cut short or changed, or begins in another way.
 bool check_seal(const std::string& path);
 
-/// Seals the present contents of a file, with or without an older seal of either kind. The file is
-/// replaced as a whole.
+/// Seals the present contents of a file, with or without an older seal. The file is replaced as a
+/// whole.
 /// @throws chladni::Error when it must not be read (trial_reading.hpp), or cannot be written.
-void seal_file(const std::string& path, SealPlace place = SealPlace::inside);
-
-/// The name FILE.seal of a seal beside its file.
-std::string detached_seal(const std::string& path);
-
-/// Removes the seal beside a file that has one inside. Other files of that name are kept.
-void remove_detached_seal(const std::string& path);
+void seal_file(const std::string& path);
 
 }  // namespace chladni::files

@@ -1,35 +1,13 @@
 #include "hostile_file.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstdint>
 #include <filesystem>
-#include <fstream>
 
 #include "common/files/hdf5.hpp"
-#include "common/files/input_file.hpp"
 #include "common/files/seal.hpp"
 
 namespace chladni::files::test {
-namespace {
-
-/// As whoever knows the format can write it: the seal has no key.
-void forge_detached_seal(const std::string& path)
-{
-  const std::string bytes = bytes_of(path);
-  Xxh64 hash;
-  const std::size_t whole = bytes.size() / Xxh64::stripe * Xxh64::stripe;
-  const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data());
-  hash.add({first, whole});
-  std::ofstream(path + ".seal") << fmt::format(
-      "Chladni seal 1\nbytes {}\nxxh64 {:016x} of all bytes\nOf the HDF5 file of this name without "
-      ".seal. When you have changed it on purpose: chladni seal --detach FILE\n",
-      bytes.size(), hash.finish({first + whole, bytes.size() - whole}));
-}
-
-}  // namespace
-
 bool contains(const std::string& text, const std::string& part)
 {
   return text.find(part) != std::string::npos;
@@ -38,7 +16,6 @@ bool contains(const std::string& text, const std::string& part)
 void make_file(const std::string& path, Sealed sealed, const std::function<void(hid_t file)>& fill)
 {
   std::filesystem::remove(path);
-  std::filesystem::remove(path + ".seal");
   {
     const Handle creation{H5Pcreate(H5P_FILE_CREATE), H5Pclose};
     H5Pset_userblock(creation.get(), sealed == Sealed::inside ? seal_size : 0);
@@ -47,7 +24,6 @@ void make_file(const std::string& path, Sealed sealed, const std::function<void(
     fill(file.get());
   }
   if (sealed == Sealed::inside) write_seal(path);
-  if (sealed == Sealed::beside) forge_detached_seal(path);
 }
 
 Handle dataset_properties()

@@ -1,4 +1,4 @@
-// Files that are made to deceive, each of them without a seal, with one and with one beside it:
+// Files that are made to deceive, each of them without a seal and with one:
 // what is read stands in the file itself, and nothing is run.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -138,16 +138,6 @@ TEST(HostileFile, IsAnOrdinaryFile)
     EXPECT_EQ(error_of([&, path = path] { Reader reader(path); }), expected);
     EXPECT_EQ(error_of([&, path = path] { seal_file(path); }), expected);
   }
-}
-
-TEST(HostileFile, HasNoSealThatIsAFifo)
-{
-  const ScratchFolder folder;
-  const std::string path = folder.file("a.h5");
-  make_file(path, Sealed::not_at_all, [](hid_t file) { make_x(file, 1, dataset_properties()); });
-  ASSERT_EQ(mkfifo((path + ".seal").c_str(), 0600), 0);
-  EXPECT_EQ(error_of([&] { Reader(path).vector("x"); }),
-            path + ".seal: is a FIFO, expected an ordinary file");
 }
 
 }  // namespace

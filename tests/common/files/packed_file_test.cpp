@@ -1,5 +1,5 @@
 // Files that claim more than they hold, or unpack to more than they claim, each of them without a
-// seal, with one and with one beside it: they take memory and time that befit their size.
+// seal and with one: they take memory and time that befit their size.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
