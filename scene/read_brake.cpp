@@ -279,10 +279,7 @@ squeal::FrictionLaw read_measured(const Table& friction)
   if (tables.empty()) friction.refuse("table", "must hold at least one row");
   for (const char* key : {"temperature_C", "pressure_Pa"}) check_key(tables, key);
   std::vector<MeasuredRow> rows;
-  for (const Table& row : tables) {
-    rows.push_back(read_row(row));
-    rows.back().curve.row = static_cast<int>(rows.size());
-  }
+  for (const Table& row : tables) rows.push_back(read_row(row));
   const squeal::FrictionTable table = table_of(friction, rows);
   squeal::FrictionLaw law{.kinetic = friction.has("factor") ? friction.number("factor") : 1.0};
   if (friction.has("regularisation")) law.regularisation = friction.number("regularisation");

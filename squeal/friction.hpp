@@ -15,7 +15,6 @@ struct FrictionCurve {
   std::vector<double> speeds;       ///< m/s, ascending; a single speed means a constant
   std::vector<double> mu;           ///< friction coefficient at each speed
   std::vector<double> slopes = {};  ///< d mu / d v at each speed, s/m, set by friction_curve
-  int row = 0;                      ///< number of its row in the table of the scene, from 1
 };
 
 /// The curve through the points, with its slopes.

@@ -296,7 +296,7 @@ void add_contact(std::vector<AssemblyNumber>& numbers, const FaceContact& contac
     numbers.push_back({.key = std::move(number.key),
                        .unit = std::string(number.unit),
                        .value = number.value,
-                       .step = number.step,
+                       .step = 0.0,
                        .set = [i, with = std::move(number.with)](AssemblyOptions& o, double x) {
                          o.contacts[i].friction = with(x);
                        }});
@@ -322,17 +322,6 @@ void add_disc(std::vector<AssemblyNumber>& numbers, const AssemblyOptions& optio
                            o.thickness = (*o.planes)[1] - (*o.planes)[0];
                          }});
     }
-  }
-  const auto has_its_own = [](const FaceContact& contact) { return contact.friction.has_value(); };
-  if (std::ranges::all_of(options.contacts, has_its_own)) return;
-  for (FrictionNumber& number : friction_points(options.friction, "friction")) {
-    numbers.push_back({.key = std::move(number.key),
-                       .unit = std::string(number.unit),
-                       .value = number.value,
-                       .step = number.step,
-                       .set = [with = std::move(number.with)](AssemblyOptions& o, double x) {
-                         o.friction = with(x);
-                       }});
   }
 }
 

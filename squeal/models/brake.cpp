@@ -27,23 +27,6 @@ std::string name_of_mode(int nodal_diameters, double f_Hz)
 
 }  // namespace
 
-std::vector<BrakeNumber> friction_point_numbers(
-    const FrictionLaw& law, const std::string& key,
-    const std::function<std::unique_ptr<Brake>(FrictionLaw)>& brake)
-{
-  std::vector<BrakeNumber> numbers;
-  for (FrictionNumber& point : friction_points(law, key)) {
-    numbers.push_back({.key = std::move(point.key),
-                       .unit = std::string(point.unit),
-                       .value = point.value,
-                       .step = point.step,
-                       .with = [with = std::move(point.with), brake](double value) {
-                         return brake(with(value));
-                       }});
-  }
-  return numbers;
-}
-
 std::vector<BrakeNumber> disc_frequencies(
     const InertialDisc& disc, const std::function<std::unique_ptr<Brake>(InertialDisc)>& brake)
 {

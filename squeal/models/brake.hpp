@@ -22,8 +22,7 @@ class Brake;
 class FlexibleDisc;
 class LumpedBrake;
 
-/// A number of a brake that is no MapParameter: a point of a friction table, a spring of a joint,
-/// the frequency of a mode.
+/// A number of a brake that is no MapParameter: a spring of a joint, the frequency of a mode.
 struct BrakeNumber {
   std::string key;   ///< of the scene, or a name such as "frequency of the mode at 870 Hz"
   std::string unit;  ///< of the value
@@ -112,13 +111,6 @@ class LumpedBrake : public Brake {
   /// Height z of the first upper pad at x = 0, m.
   virtual double rest_height() const = 0;
 };
-
-/// The points of the table of a friction law, as `friction_points`.
-/// @param key    of the law in the scene: "friction", "pads[2].friction"
-/// @param brake  the brake with another law in place of this one
-std::vector<BrakeNumber> friction_point_numbers(
-    const FrictionLaw& law, const std::string& key,
-    const std::function<std::unique_ptr<Brake>(FrictionLaw)>& brake);
 
 /// The frequency (Hz) of each mode or pair of modes of a disc. With another frequency a mode keeps
 /// its damping in 1/s.

@@ -60,33 +60,12 @@ std::unique_ptr<FlexibleDisc> FlexibleDisc::between(SquealOptions options) const
 
 std::vector<BrakeNumber> FlexibleDisc::further_numbers() const
 {
-  std::vector<BrakeNumber> numbers;
-  const auto add = [&](const FrictionLaw& law, const std::string& key, auto set) {
-    for (BrakeNumber& number : friction_point_numbers(law, key, [this, set](FrictionLaw changed) {
-           SquealOptions options = options_;
-           set(options, std::move(changed));
-           return between(std::move(options));
-         }))
-      numbers.push_back(std::move(number));
-  };
-  const auto has_its_own = [](const PadPair& pad) { return pad.friction.has_value(); };
-  if (!std::ranges::all_of(options_.pads, has_its_own)) {
-    add(options_.friction, "friction",
-        [](SquealOptions& o, FrictionLaw law) { o.friction = std::move(law); });
-  }
-  for (std::size_t i = 0; i < options_.pads.size(); ++i) {
-    if (!options_.pads[i].friction) continue;
-    add(*options_.pads[i].friction, fmt::format("pads[{}].friction", i + 1),
-        [i](SquealOptions& o, FrictionLaw law) { o.pads[i].friction = std::move(law); });
-  }
-  for (BrakeNumber& number : disc_frequencies(inertial(), [this](InertialDisc disc) {
-         auto changed = std::make_unique<FlexibleDisc>(*this);
-         changed->inertial_ = std::make_shared<const std::optional<InertialDisc>>(std::move(disc));
-         changed->complete_.reset();
-         return changed;
-       }))
-    numbers.push_back(std::move(number));
-  return numbers;
+  return disc_frequencies(inertial(), [this](InertialDisc disc) {
+    auto changed = std::make_unique<FlexibleDisc>(*this);
+    changed->inertial_ = std::make_shared<const std::optional<InertialDisc>>(std::move(disc));
+    changed->complete_.reset();
+    return changed;
+  });
 }
 
 std::unique_ptr<AutonomousMotion> FlexibleDisc::motion(double speed) const

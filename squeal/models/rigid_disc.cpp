@@ -388,15 +388,6 @@ std::vector<ParameterValue> RigidDiscBrake::parameters() const
   return values;
 }
 
-std::vector<BrakeNumber> RigidDiscBrake::further_numbers() const
-{
-  return friction_point_numbers(study_.disc.friction, "friction", [this](FrictionLaw law) {
-    RigidDiscStudy changed = study_;
-    changed.disc.friction = std::move(law);
-    return std::make_unique<RigidDiscBrake>(changed);
-  });
-}
-
 std::unique_ptr<AutonomousMotion> RigidDiscBrake::motion(double speed) const
 {
   if (study_.equations == RigidEquations::linear) {

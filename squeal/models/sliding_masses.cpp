@@ -284,16 +284,6 @@ std::vector<ParameterValue> SlidingBrake::parameters() const
   return values;
 }
 
-std::vector<BrakeNumber> SlidingBrake::further_numbers() const
-{
-  Model model = model_;
-  return friction_point_numbers(friction_of(model), "friction", [this](FrictionLaw law) {
-    Model changed = model_;
-    friction_of(changed) = std::move(law);
-    return std::make_unique<SlidingBrake>(changed);
-  });
-}
-
 std::unique_ptr<AutonomousMotion> SlidingBrake::motion(double speed) const
 {
   return std::make_unique<ModelMotion<SlidingEquationsAt>>(

@@ -57,8 +57,6 @@ class SlidingBrake final : public LumpedBrake {
   Eigen::MatrixXd state_matrix(double speed) const override;
   std::unique_ptr<Brake> with(MapParameter parameter, double value) const override;
   std::vector<ParameterValue> parameters() const override;
-  /// Points of the friction table.
-  std::vector<BrakeNumber> further_numbers() const override;
   std::unique_ptr<AutonomousMotion> motion(double speed) const override;
   double rest_compression() const override;
 

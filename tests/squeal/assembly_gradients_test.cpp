@@ -42,8 +42,6 @@ AssemblyOptions rich_options()
   FrictionTable table{.pressures = {2e5, 2e6},
                       .curves = {friction_curve({0.01, 3.0, 12.0}, {0.5, 0.47, 0.44}),
                                  friction_curve({0.01, 3.0, 12.0}, {0.48, 0.44, 0.41})}};
-  table.curves[0].row = 2;
-  table.curves[1].row = 1;
   own.friction =
       FrictionLaw{.kinetic = 1.0, .table = std::make_shared<const FrictionTable>(std::move(table))};
   options.joints[0].stiffness[0] = options.joints[0].damping[0] = 0.0;
@@ -109,9 +107,9 @@ TEST(AssemblyGradients, OfEveryNumberOfTheSceneAreDifferencesOfAssemblies)
   const Gradients found = gradients_of(options, bodies);
   ASSERT_GE(found.motions.size(), 1u);
   const std::vector<AssemblyNumber> numbers = assembly_numbers(options);
-  // Six of each part, five and six of springs and dampers, four of a face, twelve of its table, one
-  // of its factor, thickness.
-  EXPECT_EQ(numbers.size(), 12u + 22u + 8u + 13u + 1u);
+  // Six of each part, five and six of springs and dampers, four of a face, one of the factor of its
+  // table, thickness.
+  EXPECT_EQ(numbers.size(), 12u + 22u + 8u + 1u + 1u);
   for (const AssemblyNumber& number : numbers) {
     const GradientRow& row = row_of(found, number.key);
     EXPECT_EQ(row.value, number.value);
@@ -162,24 +160,6 @@ TEST(AssemblyGradients, HavePlacesOfPartsThatRigidJointsHold)
     EXPECT_NO_THROW(number.with(number.value + number.step)) << number.key;
   }
   EXPECT_EQ(places, 12);
-}
-
-TEST(AssemblyGradients, OfATableThatBeginsAtRestStayBelowTheNextPoint)
-{
-  const FrictionTable table{.curves = {friction_curve({0.0, 1.0, 3.0}, {0.5, 0.4, 0.0})}};
-  const FrictionLaw law{.kinetic = 1.0, .table = std::make_shared<const FrictionTable>(table)};
-  const std::vector<FrictionNumber> points = friction_points(law, "friction");
-  ASSERT_EQ(points.size(), 6u);
-  for (const FrictionNumber& point : points) {
-    ASSERT_GT(point.step, 0.0) << point.key;
-    for (const double value : {point.value - point.step, point.value + point.step}) {
-      const FrictionLaw changed = point.with(value);
-      const std::vector<double>& speeds = changed.table->curves[0].speeds;
-      EXPECT_TRUE(std::ranges::is_sorted(speeds)) << point.key;
-      EXPECT_NEAR(friction_coefficient(changed, 2.0), friction_coefficient(law, 2.0), 1e-4)
-          << point.key;
-    }
-  }
 }
 
 }  // namespace
