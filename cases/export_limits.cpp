@@ -89,7 +89,7 @@ std::vector<std::string> with_stiffening_left_out(
     const std::optional<mbs_export::Stiffening>& written)
 {
   if (!there) return notes;
-  constexpr std::array<std::string_view, 3> with_a_place{"mbdyn-develop", "sid", "mat"};
+  constexpr std::array<std::string_view, 2> with_a_place{"mbdyn-develop", "sid"};
   if (std::ranges::find(with_a_place, format) == with_a_place.end()) {
     notes.push_back(fmt::format(
         "the geometric stiffening is left out: {} has no place for it; --format {} writes it",

@@ -170,7 +170,7 @@ mbs_export::ModalBody body_of(const ExportArguments& arguments, const Source& so
 {
   if (!source.scene) {
     mbs_export::ModalBody body = mbs_export::read_body(source.reduced_file);
-    if (arguments.format != "mat") cases::refuse_condensed(body, source.reduced_file.string());
+    cases::refuse_condensed(body, source.reduced_file.string());
     return body;
   }
   return make_body_of(*source.scene, read_reduced_of(arguments, source));
@@ -216,10 +216,6 @@ Exported export_brake_fmu(const ExportArguments& arguments)
 Exported export_as(const ExportArguments& arguments, const Source& source)
 {
   if (arguments.format == "fmu") return export_fmu(arguments, source);
-  if (arguments.format == "mat") {
-    const std::string text = formats::matlab_body(body_of(arguments, source));
-    return {{write(target_of(arguments, source, ".mat"), text)}, {}};
-  }
   const mbs_export::ReducedSystem reduced = read_reduced_of(arguments, source);
   const bool is_of_reduced =
       arguments.format == "matrix-market" || arguments.format.starts_with("nastran");
@@ -264,9 +260,9 @@ void export_and_report(const ExportArguments& arguments)
 
 const std::vector<std::string>& export_formats()
 {
-  static const std::vector<std::string> names{
-      "nastran-dmig", "nastran-op4", "matrix-market", "mbdyn", "mbdyn-develop",
-      "sid",          "exudyn",      "mat",           "fmu",   "fmu-brake"};
+  static const std::vector<std::string> names{"nastran-dmig", "nastran-op4",   "matrix-market",
+                                              "mbdyn",        "mbdyn-develop", "sid",
+                                              "exudyn",       "fmu",           "fmu-brake"};
   return names;
 }
 

@@ -79,7 +79,7 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
   CLI::App* exported = app.add_subcommand("export", "writes files for other programs");
   exported
       ->add_option("SOURCE", arguments.source,
-                   "the scene file, or a *.reduced.h5 (for the formats mat and fmu: a *.body.h5)")
+                   "the scene file, or a *.reduced.h5 (for the format fmu: a *.body.h5)")
       ->required();
   exported->add_option("--format", arguments.format, "file format to write")
       ->required()
@@ -116,7 +116,6 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
       "  chladni export scene.toml --from out --format mbdyn-develop --output disc.fem\n"
       "  chladni export scene.toml --from out --format sid --sid-dialect welib\n"
       "  chladni export scene.toml --from out --format exudyn --output disc.exudyn.hdf5\n"
-      "  chladni export out/disc.body.h5 --format mat\n"
       "  chladni export out/disc.body.h5 --format fmu --fmi 3 --nodes track,hub\n"
       "  chladni export scene.toml --from out --format fmu-brake --output brake.fmu");
 }
@@ -171,7 +170,7 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
   app.get_subcommand("mesh")->add_flag(
       "--quality", arguments.mesh.quality,
       "reports element quality and unusable elements; SCENE may be a .msh, .geo, .step, .unv, "
-      ".med, .vtu or a deck");
+      ".med or a deck");
   chladni::cli::declare_length_unit(*app.get_subcommand("mesh"), arguments.mesh.length_unit);
   chladni::cli::declare_response(*app.get_subcommand("response"), arguments.response);
   for (const char* reader : {"body", "response", "sound"})

@@ -1,34 +1,39 @@
 % The natural frequencies of a body, and a receptance of it, in MATLAB or Octave.
 %
 %   chladni run ../response/scene.toml --output out
-%   chladni export out/tap.body.h5 --format mat --output tap.mat
-%   octave receptance.m          % or `receptance` in MATLAB, in the folder of tap.mat
+%   receptance                   % in MATLAB, in the folder of out
+%
+% Octave cannot read the texts of the file. For it two lines of Python write the arrays to a file of its own:
+%
+%   python3 -c 'import h5py, scipy.io; body = h5py.File("out/tap.body.h5")
+%   scipy.io.savemat("tap.mat", {"omega": body["modes/frequencies"][:], "phi": body["modes/attachment_displacements"][:]})'
+%   octave receptance.m
 %
 % It prints the frequencies and writes receptance.csv: Hz, and the real and imaginary part of the
-% displacement in m of the output node for each N at the load node.
+% displacement in m of the output node for each N at the load node. The body has no damping of its own.
 
-load tap.mat
-omega = body.frequencies(:);  % rad/s
+if exist('tap.mat', 'file')
+  load tap.mat
+else
+  omega = h5read('out/tap.body.h5', '/modes/frequencies');               % rad/s
+  phi = h5read('out/tap.body.h5', '/modes/attachment_displacements')';   % MATLAB reverses the extents
+end
+omega = omega(:);
 fprintf('mode %d: %.3f Hz\n', [1:numel(omega); omega' / (2 * pi)]);
 
-z = 3;                        % components: x y z rx ry rz
-load_node = 1;                % places in body.node_numbers, here the first node of the track
+z = 3;                        % components: x y z rx ry rz, the rows of each node in turn
+load_node = 1;                % rows of attachment/node_numbers from 1, here the first node of the track
 output_node = 1;
-row = @(node) body.row_nodes(:) == node & body.row_components(:) == z;
-phi_load = body.attachment_displacements(row(load_node), :);
-phi_output = body.attachment_displacements(row(output_node), :);
+phi_load = phi(6 * (load_node - 1) + z, :);
+phi_output = phi(6 * (output_node - 1) + z, :);
 
-% (diag(omega^2) (1 + i eta) + i Omega C - Omega^2 I) q = phi_load' * 1 N, u = phi_output q
+% (diag(omega^2) (1 + i eta) - Omega^2 I) q = phi_load' * 1 N, u = phi_output q
 eta = 0.002;
-n = numel(omega);
-C = zeros(n);
-if ~isempty(body.damping), C = body.damping; end
 f_Hz = linspace(100, 5000, 981)';
 u = zeros(size(f_Hz));
 for k = 1:numel(f_Hz)
   Omega = 2 * pi * f_Hz(k);
-  q = (diag(omega.^2 * (1 + 1i * eta)) + 1i * Omega * C - Omega^2 * eye(n)) \ phi_load';
-  u(k) = phi_output * q;
+  u(k) = sum(phi_output .* phi_load ./ (omega.^2 * (1 + 1i * eta) - Omega^2).');
 end
 
 file = fopen('receptance.csv', 'w');

@@ -7,7 +7,6 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-import scipy.io
 from disc_scene import disc
 from files_of import arrays_of
 
@@ -96,30 +95,6 @@ class Responses(unittest.TestCase):
                     for dim, along in array.coords.items():
                         self.assertEqual(array.shape[array.dims.index(dim)], len(along))
             self.assertIn("receptance", responses.describe())
-
-
-class MatFile(unittest.TestCase):
-    def test_holds_the_body(self):
-        with tempfile.TemporaryDirectory() as folder:
-            run = disc(title="Scheibe Ä€😀").run(folder)
-            for source, of_source in ((f"{folder}/small.body.h5", []), (f"{folder}/scene.toml", ["--from", folder])):
-                Path(f"{folder}/scene.toml").write_text(run.scene.text)
-                export = [PROGRAMS / "chladni", "export", source, *of_source, "--format", "mat", "--output", f"{folder}/a.mat"]
-                subprocess.run(export, check=True, capture_output=True)
-                body = scipy.io.loadmat(f"{folder}/a.mat", simplify_cells=True)["body"]
-                np.testing.assert_array_equal(body["frequencies"], run.body.modes.frequencies)
-                np.testing.assert_array_equal(body["attachment_displacements"], run.body.modes.attachment_displacements)
-                self.assertEqual(body["title"], "Scheibe Ä€\ufffd")
-                self.assertEqual(list(body["kinds"]), list(run.body.modes.kinds))
-                self.assertEqual(body["fixed"], "hub")
-                self.assertEqual(body["rings"]["name"], "track")
-                np.testing.assert_array_equal(body["rings"]["displacement"], run.body.rings.track.displacement)
-                np.testing.assert_array_equal(body["rings"]["nodes"], run.body.rings.track.nodes.values + 1)
-                self.assertEqual([one["name"] for one in body["sets"]], ["track", "hub"])
-                np.testing.assert_array_equal(body["row_nodes"], run.body.modes.row_nodes.values + 1)
-                np.testing.assert_array_equal(body["node_positions"], run.body.attachment.node_positions)
-                self.assertEqual(body["damping"].size, 0)
-                self.assertEqual(body["mass"], run.body.rigid_body.mass)
 
 
 class Refusal(unittest.TestCase):
