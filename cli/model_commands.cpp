@@ -59,7 +59,7 @@ Subject read_subject(const ChladniArguments& arguments)
   }
   if (!has_no_unit && !unit.empty()) {
     throw Error(path +
-                ": --length-unit is for decks, .unv, .med and .vtu files without a scene; give "
+                ": --length-unit is for decks, .unv and .med files without a scene; give "
                 "length_unit in [mesh] instead");
   }
   if (mesh::mesh_source(path)) {
@@ -356,7 +356,7 @@ void response_command(const ChladniArguments& arguments)
 
 void declare_length_unit(CLI::App& app, std::string& unit)
 {
-  app.add_option("--length-unit", unit, "unit of length of a deck, .unv, .med or .vtu file")
+  app.add_option("--length-unit", unit, "unit of length of a deck, .unv or .med file")
       ->type_name("UNIT")
       ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
 }

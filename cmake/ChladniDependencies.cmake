@@ -10,7 +10,7 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json 3 REQUIRED)
 # The serial HDF5, also in `chladni`: files are written by one rank, and `squeal` must not link MPI.
 pkg_search_module(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)  # Debian's name, and HDF5's own
-find_library(ZLIB_LIBRARY z REQUIRED)  # FMUs are zip archives; arrays of .vtu meshes are packed
+find_library(ZLIB_LIBRARY z REQUIRED)  # FMUs are zip archives
 
 # For the Python of the system, which has Debian's numpy and petsc4py; another one is chosen by PYTHON_EXECUTABLE. An
 # interpreter without sanitizers loads no module with them.
@@ -59,7 +59,6 @@ if(CHLADNI_FE)
   find_library(GMSH_LIBRARY gmsh REQUIRED)
   # Those that PETSc was built with, where it brought its own.
   find_library(METIS_LIBRARY metis HINTS ${PETSC_LIBRARY_DIRS} ${PETSC_LIBDIR} REQUIRED)
-  find_library(EXPAT_LIBRARY expat REQUIRED)  # the XML of .vtu meshes
   # The one that PETSc links; its C interface takes an ordering by METIS, which PETSc's does not.
   find_library(MUMPS_LIBRARY dmumps HINTS ${PETSC_LIBRARY_DIRS} ${PETSC_LIBDIR} REQUIRED)
   # Complex equations of the sound field, beside the real PETSc.

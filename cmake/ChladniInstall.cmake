@@ -200,7 +200,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_NAME libchladni-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, libhdf5-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS
-    "libpetsc-real-dev, libslepc-real-dev, libmetis-dev, libmumps-dev, libmuparser-dev, libopenblas-dev, libexpat1-dev")
+    "libpetsc-real-dev, libslepc-real-dev, libmetis-dev, libmumps-dev, libmuparser-dev, libopenblas-dev")
 set(CPACK_COMPONENTS_ALL squeal dev)
 if(CHLADNI_FE)
   list(APPEND CPACK_COMPONENTS_ALL fe)

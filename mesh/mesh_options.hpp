@@ -13,7 +13,7 @@
 namespace chladni::mesh {
 
 /// How a mesh file is read.
-enum class MeshSource { msh, geo, step, unv, med, vtu, nastran, abaqus };
+enum class MeshSource { msh, geo, step, unv, med, nastran, abaqus };
 
 /// A kind of mesh file, by what its name ends with, in letters of either case.
 struct FileKind {
@@ -22,14 +22,13 @@ struct FileKind {
 };
 
 /// All kinds of mesh files.
-inline constexpr std::array<FileKind, 12> file_kinds{{{".msh", MeshSource::msh},
+inline constexpr std::array<FileKind, 11> file_kinds{{{".msh", MeshSource::msh},
                                                       {".geo", MeshSource::geo},
                                                       {".step", MeshSource::step},
                                                       {".stp", MeshSource::step},
                                                       {".unv", MeshSource::unv},
                                                       {".med", MeshSource::med},
                                                       {".mmed", MeshSource::med},
-                                                      {".vtu", MeshSource::vtu},
                                                       {".bdf", MeshSource::nastran},
                                                       {".nas", MeshSource::nastran},
                                                       {".dat", MeshSource::nastran},
@@ -64,7 +63,7 @@ inline bool is_deck(std::string_view file)
 /// unit of length and no sections.
 constexpr bool is_exchange(MeshSource source)
 {
-  return source == MeshSource::unv || source == MeshSource::med || source == MeshSource::vtu;
+  return source == MeshSource::unv || source == MeshSource::med;
 }
 inline bool is_exchange(std::string_view file)
 {
@@ -82,6 +81,13 @@ inline std::string extensions_of(bool (*holds)(MeshSource) = [](MeshSource) { re
   for (std::size_t i = 0; i < found.size(); ++i)
     text.append(i == 0 ? "" : i + 1 < found.size() ? ", " : " or ").append(found[i]);
   return text;
+}
+
+/// What to do with a mesh file of version 0.2 that is read no more; empty for other names.
+inline std::string instead_of(std::string_view file)
+{
+  if (!file.ends_with(".vtu")) return "";
+  return "; meshio makes a .msh of a .vtu, and lines of docs/how-to/meshes.md keep its groups";
 }
 
 /// Nodes at equal angles on a circle about the z axis, the first on the x axis.

@@ -204,6 +204,9 @@ void refuse_other_files(const std::string& path)
   }
   if (mesh::mesh_source(path))
     refuse("is a mesh, but a scene file (TOML) is needed; name the mesh there as `file` of [mesh]");
+  const std::string instead = mesh::instead_of(path);
+  if (!instead.empty())
+    refuse("is a mesh of another program, but a scene file (TOML) is needed" + instead);
   if (extension == ".vtk") {
     refuse(
         "is a mesh of another program, but a scene file (TOML) is needed; name it there as `file` "

@@ -56,7 +56,7 @@ Deck deck_of(ExchangeMesh mesh, const MeshOptions& options);
 /// @throws chladni::Error as `deck_of` and the `mesh_of` of a deck.
 Mesh mesh_of(ExchangeMesh mesh, const MeshOptions& options);
 
-/// Reads the mesh of a .unv, .med or .vtu in its own unit, in this process.
+/// Reads the mesh of a .unv or .med in its own unit, in this process.
 /// @throws chladni::Error naming the file and its part that is wrong or unknown.
 Mesh exchange_mesh(const MeshOptions& options);
 

@@ -48,7 +48,6 @@ class Chladni(CMakePackage):
         depends_on("openblas")
         depends_on("gmsh@4.8:+opencascade~fltk+shared")
         depends_on("muparser")
-        depends_on("expat")
 
     with when("+python"):
         extends("python")

@@ -1,14 +1,11 @@
-"""A plate from a universal file, a MED file or a grid of VTK has the frequencies of the same mesh from Gmsh's format, and bad
-files end in a sentence.
+"""A plate from a universal file or a MED file has the frequencies of the same mesh from Gmsh's format, and bad files end in a
+sentence.
 
 Usage: exchange.py PROGRAM_DIR
 """
 
-import base64
-import struct
 import sys
 import tempfile
-import zlib
 from pathlib import Path
 
 import h5py
@@ -91,47 +88,6 @@ def med_file(path, order, change=lambda file: None):
         change(file)
 
 
-def vtu_array(kind, name, values, components, how, appended):
-    dtype = {"Float64": np.float64, "Int64": np.int64, "UInt8": np.uint8}[kind]
-    values = np.asarray(values, dtype=dtype)
-    head = f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}"'
-    if how == "ascii":
-        return f'{head} format="ascii">{" ".join(repr(v.item()) for v in values)}</DataArray>'
-    if how == "base64":
-        data = values.tobytes()
-        return f'{head} format="binary">{base64.b64encode(struct.pack("<Q", len(data)) + data).decode()}</DataArray>'
-    packed = zlib.compress(values.tobytes())
-    block = struct.pack("<QQQQ", 1, len(values.tobytes()), 0, len(packed)) + packed
-    offset = sum(map(len, appended))
-    appended.append(block)
-    return f'{head} format="appended" offset="{offset}"/>'
-
-
-def vtu_file(order, how):
-    nodes, kinds = parts(order)
-    place = {n: k for k, (n, _, _) in enumerate(nodes)}
-    types = {"line": (3, 21), "triangle": (5, 22), "quad": (9, 23)}
-    cells = [([place[n] for n in element], types[kind][order - 1], group)
-             for kind, elements, group in kinds for element in elements]  # fmt: skip
-    appended = []
-
-    def array(kind, name, values, components=1):
-        return vtu_array(kind, name, values, components, how, appended)
-
-    points = array("Float64", "Points", [c for _, x, y in nodes for c in (x, y, 0.0)], 3)
-    topology = (array("Int64", "connectivity", [n for cell, _, _ in cells for n in cell])
-                + array("Int64", "offsets", np.cumsum([len(cell) for cell, _, _ in cells]))
-                + array("UInt8", "types", [kind for _, kind, _ in cells]))  # fmt: skip
-    groups = "".join(array("UInt8", f"group {name}", [group == name for _, _, group in cells]) for name in ("plate", "root"))
-    compressor = ' compressor="vtkZLibDataCompressor"' if appended else ""
-    text = (f'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" '
-            f'header_type="UInt64"{compressor}><UnstructuredGrid><Piece NumberOfPoints="{len(nodes)}" '
-            f'NumberOfCells="{len(cells)}"><Points>{points}</Points><Cells>{topology}</Cells><CellData>{groups}'
-            f"</CellData></Piece></UnstructuredGrid>")  # fmt: skip
-    data = b'<AppendedData encoding="raw">_' + b"".join(appended) + b"</AppendedData>" if appended else b""
-    return text.encode() + data + b"</VTKFile>\n"
-
-
 def compared(chladni, folder, name, expected):
     path = folder / f"{name.replace('.', '_')}.toml"
     path.write_text(scene(name, "plate", "root"))
@@ -146,28 +102,12 @@ def of_order(chladni, folder, order):
     expected = frequencies(chladni, folder / "msh.toml")
     (folder / f"{order}.unv").write_text(universal_file(order))
     med_file(folder / f"{order}.med", order)
-    for how in ("ascii", "base64", "appended"):
-        (folder / f"{order}_{how}.vtu").write_bytes(vtu_file(order, how))
-    for name in (f"{order}.unv", f"{order}.med", *(f"{order}_{how}.vtu" for how in ("ascii", "base64", "appended"))):
+    for name in (f"{order}.unv", f"{order}.med"):
         yield from compared(chladni, folder, name, expected)
 
 
-def own_picture_is_a_mesh(chladni, folder):
-    """`chladni mesh` writes a .vtu with all nodes and groups, of any order."""
-    text = scene("plate.msh", "plate", "left").replace('file = "plate.msh"\nlength_unit = "mm"',
-        'generator = "rectangle"\nlength = 0.3\nwidth = 0.2\nelement_size = 0.06\nelement_order = 3')  # fmt: skip
-    (folder / "generated.toml").write_text(text.replace('"by_hand"', '"generated"'))
-    run(chladni, "mesh", folder / "generated.toml", "--output", folder)
-    expected = frequencies(chladni, folder / "generated.toml")
-    again = scene("generated.mesh.vtu", "plate", "left").replace('"mm"', '"m"')
-    (folder / "again.toml").write_text(again)
-    for f, g in zip(frequencies(chladni, folder / "again.toml"), expected, strict=True):
-        if abs(f - g) > 1e-9 * g:
-            yield f"from the picture of the mesh: {f} Hz instead of {g} Hz"
-
-
 def units_are_asked_for(chladni, folder):
-    for name in ("1.unv", "1.med", "1_ascii.vtu"):
+    for name in ("1.unv", "1.med"):
         done = start(chladni, "mesh", folder / name)
         if done.returncode == 0 or "--length-unit" not in done.stderr:
             yield f"{name}: the unit is not asked for: {done.stderr}"
@@ -262,7 +202,7 @@ def main(programs):
     chladni = Path(programs) / "chladni"
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        failures = [*of_order(chladni, folder, 1), *of_order(chladni, folder, 2), *own_picture_is_a_mesh(chladni, folder),
+        failures = [*of_order(chladni, folder, 1), *of_order(chladni, folder, 2),
                     *units_are_asked_for(chladni, folder), *only_decks_are_imported(chladni, folder),
                     *bad_med_files_are_refused(chladni, folder)]  # fmt: skip
     print("\n".join(f"FAILED: {line}" for line in failures))

@@ -113,16 +113,6 @@ TEST_F(MutatedFile, OfAUniversalFileEndsInASentence)
   expect_sentences("j.unv", golden, with_other_bytes, Trust::owner);
 }
 
-TEST_F(MutatedFile, OfVtkEndsInASentence)
-{
-  for (const char* file : {"ascii.vtu", "appended.vtu"}) {
-    const std::string golden =
-        bytes_of(std::string(CHLADNI_SOURCE_DIR "/tests/fuzz/corpus/exchange/") + file);
-    expect_sentences("k.vtu", golden, with_other_numbers, Trust::owner);
-    expect_sentences("l.vtu", golden, with_other_bytes, Trust::owner);
-  }
-}
-
 TEST_F(MutatedFile, OfMedEndsInASentence)
 {
   const std::string golden = bytes_of(CHLADNI_SOURCE_DIR "/tests/data/three_by_two.med");

@@ -222,8 +222,10 @@ TEST(SceneMeshError, NamesWhatAFileDoesNotTake)
   EXPECT_EQ(
       mesh_error("file = \"a.iges\"\n"),
       "scene.toml:2: mesh.file = \"a.iges\": must be a mesh file: .msh, .geo, .step, .stp, "
-      ".unv, .med, .mmed, .vtu, .bdf, .nas, .dat or .inp (a deck of Nastran or, the last one, "
-      "of Abaqus)");
+      ".unv, .med, .mmed, .bdf, .nas, .dat or .inp (a deck of Nastran or, the last one, of "
+      "Abaqus)");
+  EXPECT_NE(mesh_error("file = \"a.vtu\"\n").find("meshio makes a .msh of a .vtu"),
+            std::string::npos);
   EXPECT_NE(mesh_error("file = \"a.geo\"\ndoubled_elements = \"keep\"\n").find("is for decks"),
             std::string::npos);
   EXPECT_EQ(mesh_error("file = \"a.msh\"\nelement_order = 2\n"),
