@@ -60,22 +60,29 @@ constexpr GoneOption gone_options[] = {
     {"--detach", "",
      "the seal is inside of the file; for a reader that wants HDF5 at byte 0, copy the groups to a "
      "file of their own (docs/reference/file_formats.md, The seal)"},
+    {"--checkpoint", "",
+     "a transient that was interrupted begins anew, and --resume keeps the analyses that are "
+     "finished"},
     {"--format", "mat",
      "MATLAB reads the body file itself by h5read, and two lines of Python write a .mat for Octave "
      "(docs/how-to/read_a_body.md)"},
 };
 
-/// `; --WORD is gone: ...` for the first of the words that version 0.2 knew.
-std::string told_of_gone(const std::vector<std::string>& words)
+/// `; --WORD is gone: ...` for the first of the words that version 0.2 knew and this program does
+/// not.
+std::string told_of_gone(const CLI::App& app, const std::vector<std::string>& words)
 {
+  const std::vector<std::string> known = known_words(app);
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::size_t end = words[i].find('=');
     const std::string word = words[i].substr(0, end);
     const std::string next = i + 1 < words.size() ? words[i + 1] : "";
     const std::string value = end == std::string::npos ? next : words[i].substr(end + 1);
-    for (const auto& [gone, of, instead] : gone_options)
-      if (word == gone && (of.empty() || value == of))
+    for (const auto& [gone, of, instead] : gone_options) {
+      const bool is_it = of.empty() ? std::ranges::find(known, word) == known.end() : value == of;
+      if (word == gone && is_it)
         return fmt::format("; {}{}{} is gone: {}", gone, of.empty() ? "" : " ", of, instead);
+    }
   }
   return "";
 }
@@ -89,7 +96,7 @@ std::optional<int> parse_arguments(CLI::App& app, std::vector<std::string> words
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
-    const std::string gone = told_of_gone(said);
+    const std::string gone = told_of_gone(app, said);
     const std::string near = gone.empty() ? suggestion(app, said) : gone;
     if (error.get_exit_code() == 0 || near.empty())
       return app.exit(error) == 0 ? exit_ok : exit_usage;

@@ -28,7 +28,6 @@
 #include "squeal/results/squeal_results.hpp"
 #include "squeal/results/sweep_table.hpp"
 #include "squeal/study/study.hpp"
-#include "squeal/transient/checkpoint.hpp"
 #include "squeal/transient/wav.hpp"
 
 namespace chladni::cli {
@@ -36,21 +35,6 @@ namespace chladni::cli {
 using std::filesystem::path;
 
 namespace {
-
-/// What a run that was interrupted has left behind is of no use to one that begins anew.
-/// @throws chladni::Error when there is a state, and nobody has said that it may go.
-void forget(const cases::SquealFiles& files, const SceneArguments& arguments)
-{
-  if (exists(files.checkpoint) && !arguments.overwrite) {
-    throw Error(fmt::format(
-        "{}: holds the state of an interrupted run; continue it with --resume, or start "
-        "again with --overwrite",
-        files.checkpoint.string()));
-  }
-  std::error_code ignored;
-  std::filesystem::remove(files.checkpoint, ignored);
-  std::filesystem::remove(files.spool, ignored);
-}
 
 void write_json(const std::string& file, const squeal::SquealResults& results,
                 const report::Cost& cost)
@@ -66,8 +50,7 @@ void write_json(const std::string& file, const squeal::SquealResults& results,
 struct Unfinished {
   path file;  ///< for the results
   squeal::RunOrigin origin;
-  squeal::Checkpoint* checkpoint;
-  squeal::WavSpool* sound;  ///< null when there is none
+  squeal::WavRecording* sound;  ///< null when there is none
   squeal::SquealResults begin;
 };
 
@@ -78,7 +61,6 @@ squeal::SquealResults perform(const squeal::Brake& brake, const squeal::StudyOpt
   report::ProgressLine line;
   const squeal::StudyKeeping keeping{
       .progress = [&](const std::string& analysis, double whole) { line.show(analysis, whole); },
-      .checkpoint = unfinished.checkpoint,
       .sound = unfinished.sound,
       .unfinished =
           [&](squeal::SquealResults results) {
@@ -106,8 +88,6 @@ scene::Scene read_study(const RunArguments& arguments)
 {
   scene::Scene scene = scene::read_scene(arguments.scene.scene);
   cases::require_study(scene);
-  if (!(arguments.checkpoint_interval >= 0.0))
-    throw Error("--checkpoint: the time between two checkpoints must be 0 s or more");
   if (scene.squeal_model && !arguments.body_file.empty())
     throw Error(fmt::format("{}: squeal.model needs no --body; leave it out", scene.path));
   tell_notes(scene);
@@ -125,8 +105,7 @@ void run_squeal(const RunArguments& arguments)
   cases::StaleChoice stale;
   if (arguments.body_file.empty()) stale = stale_of(arguments.scene);
   const std::optional<mbs_export::ModalBody> body = cases::body_for_squeal(scene, files, stale);
-  const ReservedOutputs reserved =
-      reserve_outputs(arguments.scene, {files.results, files.sound, files.checkpoint});
+  const ReservedOutputs reserved = reserve_outputs(arguments.scene, {files.results, files.sound});
   const cases::SquealCase brake_case = cases::squeal_case(scene, body, files, stale);
   for (const std::string& note : brake_case.notes) fmt::print(stderr, "note: {}\n", note);
   const squeal::StudyOptions& study = cases::study_of(scene);
@@ -134,21 +113,16 @@ void run_squeal(const RunArguments& arguments)
 
   const squeal::RunOrigin origin =
       cases::squeal_origin(scene, body, files, scene_file_of(arguments.scene));
-  squeal::Checkpoint checkpoint(files.checkpoint, origin, arguments.checkpoint_interval);
-  std::optional<squeal::WavSpool> sound;
-  if (study.sound) sound.emplace(files.sound, files.spool, study.sound->rate_Hz);
-  if (!arguments.resume) forget(files, arguments.scene);
+  std::optional<squeal::WavRecording> sound;
+  if (study.sound) sound.emplace(files.sound, study.sound->rate_Hz);
   std::error_code ignored;
   if (sound && !arguments.resume) std::filesystem::remove(files.sound, ignored);
-  squeal::SquealResults results =
-      perform(*brake_case.brake, study,
-              {.file = files.results,
-               .origin = origin,
-               .checkpoint = &checkpoint,
-               .sound = sound ? &*sound : nullptr,
-               .begin = arguments.resume
-                            ? cases::resume({files.results, files.checkpoint}, origin, checkpoint)
-                            : squeal::SquealResults{}});
+  squeal::SquealResults results = perform(
+      *brake_case.brake, study,
+      {.file = files.results,
+       .origin = origin,
+       .sound = sound ? &*sound : nullptr,
+       .begin = arguments.resume ? cases::resume(files.results, origin) : squeal::SquealResults{}});
   clock.end_phase("analyses");
 
   results.inputs = results.missing.empty() ? std::string() : origin.inputs;
@@ -162,13 +136,7 @@ void run_squeal(const RunArguments& arguments)
   if (sound && sound->full_scale())
     fmt::print("wrote {}, full scale {:.6g} m/s\n", files.sound.string(), *sound->full_scale());
   if (!arguments.scene.json.empty()) write_json(arguments.scene.json, results, cost);
-  if (!checkpoint.failure().empty()) {
-    fmt::print(stderr, "note: a state could not be written: {}\n",
-               report::printable(checkpoint.failure()));
-  }
   if (results.failure) throw Error(*results.failure);
-  checkpoint.remove();
-  if (sound) sound->remove();
 }
 
 namespace {

@@ -10,9 +10,8 @@ namespace chladni::cli {
 /// Arguments of `squeal run`.
 struct RunArguments {
   SceneArguments scene;
-  std::string body_file;              ///< empty for NAME.body.h5 in the output folder
-  bool resume = false;                ///< continue an interrupted run
-  double checkpoint_interval = 60.0;  ///< time between two checkpoints of a transient, s
+  std::string body_file;  ///< empty for NAME.body.h5 in the output folder
+  bool resume = false;    ///< keep the analyses that an interrupted run has finished
 };
 
 /// Performs the analyses of the scene's [squeal] on a body file, writes NAME.squeal.h5 and prints

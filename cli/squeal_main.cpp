@@ -38,12 +38,7 @@ void declare_run(CLI::App& app, SquealArguments& arguments)
   chladni::cli::declare_scene_arguments(*run, arguments.run.scene);
   chladni::cli::declare_stale(*run, arguments.run.scene.stale);
   run->add_flag("--resume", arguments.run.resume,
-                "continues an interrupted run; to start again use --overwrite");
-  run->add_option("--checkpoint", arguments.run.checkpoint_interval,
-                  "time between two checkpoints of a long transient, for --resume")
-      ->type_name("SECONDS")
-      ->check(CLI::Range(0.0, 1e9))
-      ->capture_default_str();
+                "keeps the analyses that an interrupted run has finished");
   run->add_option("--body", arguments.run.body_file, "body file; default: NAME.body.h5 in DIR")
       ->type_name("FILE");
   run->footer(

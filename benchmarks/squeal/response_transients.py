@@ -47,8 +47,12 @@ def simulate(programs, folder, text):
     (folder / "scene.toml").write_text(text)
     cpu_s = cpu_of([programs / "squeal", "run", "scene.toml", "--overwrite", "--json", "squeal.json"], folder)
     with h5py.File(folder / "disc.squeal.h5") as file:
-        n_steps, coordinates = int(file["transient/steps"][()]), file["transient/snapshots/q"].shape[1]
+        n_steps = int(file["transient/steps"][()])
     integrator = json.loads((folder / "squeal.json").read_text())["integrator"]
+    (folder / "scene.toml").write_text(text.replace('analyses = ["transient"]', 'analyses = ["eigenvalues"]'))
+    cpu_of([programs / "squeal", "run", "scene.toml", "--overwrite"], folder)
+    with h5py.File(folder / "disc.squeal.h5") as file:
+        coordinates = file["eigenvalues/mode_numbers"].size
     return {"cpu_s": cpu_s, "integrator": integrator, "coordinates": coordinates, "n_steps": n_steps}
 
 

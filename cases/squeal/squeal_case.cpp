@@ -75,9 +75,7 @@ SquealFiles squeal_files(const scene::Scene& scene, const path& folder, const pa
           .body = body.empty() ? with(".body.h5") : body,
           .radiation = with(".radiation.h5"),
           .results = with(".squeal.h5"),
-          .sound = with(".wav"),
-          .checkpoint = with(".checkpoint.h5"),
-          .spool = with(".checkpoint.sound")};
+          .sound = with(".wav")};
 }
 
 void require_study(const scene::Scene& scene)
@@ -296,40 +294,23 @@ void require_same(const path& file, const squeal::RunOrigin& then, const squeal:
   }
 }
 
-/// The origin of the state that was left behind.
-squeal::RunOrigin read_state(squeal::Checkpoint& checkpoint)
-{
-  try {
-    return checkpoint.read();
-  } catch (const Error& error) {
-    throw Error(fmt::format("{}\nRemove it: --resume then keeps the analyses that are finished",
-                            error.what()));
-  }
-}
-
 }  // namespace
 
-squeal::SquealResults resume(const LeftBehind& left, const squeal::RunOrigin& origin,
-                             squeal::Checkpoint& checkpoint)
+squeal::SquealResults resume(const path& results, const squeal::RunOrigin& origin)
 {
   squeal::SquealResults begin;
-  if (exists(left.results)) {
-    const files::Reader reader(left.results.string());
+  if (exists(results)) {
+    const files::Reader reader(results.string());
     begin = squeal::read_results(reader);
     if (!begin.missing.empty()) {
-      require_same(left.results, {mbs_export::file_parts::read_provenance(reader), begin.inputs},
+      require_same(results, {mbs_export::file_parts::read_provenance(reader), begin.inputs},
                    origin);
+      return begin;
     }
   }
-  const bool has_checkpoint = exists(left.checkpoint);
-  if (has_checkpoint) require_same(left.checkpoint, read_state(checkpoint), origin);
-  if (!has_checkpoint && begin.missing.empty()) {
-    throw Error(fmt::format(
-        "--resume: no run was interrupted here: there is neither {} nor an unfinished {}; run "
-        "without --resume",
-        left.checkpoint.string(), left.results.string()));
-  }
-  return begin.missing.empty() ? squeal::SquealResults{} : begin;
+  throw Error(fmt::format(
+      "--resume: no run was interrupted here: there is no unfinished {}; run without --resume",
+      results.string()));
 }
 
 squeal::SweepTable resume(const path& file, const squeal::SweepTable& wanted,

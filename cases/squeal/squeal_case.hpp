@@ -14,7 +14,6 @@
 #include "squeal/results/squeal_results.hpp"
 #include "squeal/results/sweep_table.hpp"
 #include "squeal/study_options.hpp"
-#include "squeal/transient/checkpoint.hpp"
 
 /// From a scene and its body to a brake and its study, without PETSc.
 
@@ -23,9 +22,8 @@ namespace chladni::cases {
 /// The files of a squeal run.
 struct SquealFiles {
   std::filesystem::path folder;
-  std::filesystem::path body, radiation;    ///< read
-  std::filesystem::path results, sound;     ///< written
-  std::filesystem::path checkpoint, spool;  ///< written while the run lasts
+  std::filesystem::path body, radiation;  ///< read
+  std::filesystem::path results, sound;   ///< written
 };
 
 /// The files of a run in a folder.
@@ -84,17 +82,10 @@ std::vector<mbs_export::ModalBody> part_bodies(const scene::Scene& scene, const 
 
 namespace chladni::cases {
 
-/// The files in which an interrupted run left its results and its state.
-struct LeftBehind {
-  std::filesystem::path results, checkpoint;
-};
-
-/// The unfinished results of an interrupted run of this origin. Reads the checkpoint as well.
-/// @return results; empty if there are none yet
-/// @throws chladni::Error when nothing was left, or when it is of another scene, body or version,
+/// The unfinished results of an interrupted run of this origin, in the file where it left them.
+/// @throws chladni::Error when there are none, or when they are of another scene, body or version,
 ///         which the message names.
-squeal::SquealResults resume(const LeftBehind& left, const squeal::RunOrigin& origin,
-                             squeal::Checkpoint& checkpoint);
+squeal::SquealResults resume(const std::filesystem::path& results, const squeal::RunOrigin& origin);
 
 /// The sweep in a file, if it is the one that is asked for.
 /// @param wanted  the sweep with all variants to do

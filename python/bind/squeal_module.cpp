@@ -144,15 +144,14 @@ std::vector<std::string> run_squeal(const scene::Scene& scene, const SquealRun& 
   const cases::SquealCase brake_case = cases::squeal_case(scene, body, files, stale);
   const squeal::RunOrigin origin = cases::squeal_origin(scene, body, files, "");
   const squeal::StudyOptions& study = cases::study_of(scene);
-  std::optional<squeal::WavSpool> sound;
-  if (study.sound) sound.emplace(files.sound, files.spool, study.sound->rate_Hz);
+  std::optional<squeal::WavRecording> sound;
+  if (study.sound) sound.emplace(files.sound, study.sound->rate_Hz);
   squeal::StudyKeeping keeping;
   keeping.progress = [&](const std::string& phase, double whole) { progress.tell(phase, whole); };
   keeping.sound = sound ? &*sound : nullptr;
   const squeal::SquealResults results =
       progress.during([&] { return squeal::run(*brake_case.brake, study, keeping); });
   squeal::write_results(files.results, results, origin.provenance);
-  if (sound) sound->remove();
   return brake_case.notes;
 }
 

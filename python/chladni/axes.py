@@ -13,8 +13,6 @@ _OF_RESULTS: _Rows = [
     (r"critical(_values/\d+)?/range/\w+", ("end",), {}),
     (r".*unstable/.*", ("interval",), {}),
     (r".*(envelope|windows|history|tail)/\w+", ("time",), {"time": "t"}),
-    (r".*snapshots/(q|q_dot)", ("time", "mode"), {"time": "t"}),
-    (r".*snapshots/\w+", ("time",), {"time": "t"}),
     (r".*events/\w+", ("event",), {"event": "t"}),
     (r"limit_cycle\w*/amplitude_(re|im)", ("mode",), {"mode": "mode_numbers"}),
     (r".*multipliers_(re|im)", ("multiplier",), {}),

@@ -105,8 +105,6 @@ class SwitchingContact {
   double side(Eigen::Index i) const;  ///< side of switching function i: 1 or -1
   void set_side(Eigen::Index i, double side);
 
-  std::vector<double>& branches() { return branches_; }  ///< branches, for an archive of the state
-
  private:
   void follow_on_branches();
 

@@ -75,7 +75,7 @@ class Brake {
   virtual double rest_compression() const = 0;
 
   /// The brake with its modal body, for analyses that need one: mode shapes, influence of single
-  /// modes, stability in the rotating frame, choice of integrators, snapshots. Null for other
+  /// modes, stability in the rotating frame, choice of integrators. Null for other
   /// brakes.
   virtual const FlexibleDisc* body() const { return nullptr; }
 

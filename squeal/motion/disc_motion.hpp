@@ -12,7 +12,6 @@
 #include "squeal/brake/switching_contact.hpp"
 #include "squeal/brake_options.hpp"
 #include "squeal/motion/motion.hpp"
-#include "squeal/motion/state_archive.hpp"
 
 namespace chladni::squeal {
 
@@ -39,8 +38,6 @@ class RotatingDisc final : public Motion {
 
   /// Number of evaluations of all contact forces so far; a tangent counts as six.
   std::int64_t n_evaluations() const { return n_evaluations_; }
-
-  void exchange(StateArchive& archive) { archive(contact_.branches(), n_evaluations_); }
 
  private:
   /// Sets the shapes of the contact points at time t, and their motions by the modes with inertia.

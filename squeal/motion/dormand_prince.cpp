@@ -156,12 +156,6 @@ void DormandPrince::cross(const Crossing& crossing, double step)
   knows_slope_ = false;
 }
 
-void DormandPrince::exchange(StateArchive& archive)
-{
-  archive(t_, t_begin_, step_, step_next_, y_, begin_, end_, K_, s_, dense_);
-  archive(extended_, knows_slope_, n_stuck_, events_, cost_);
-}
-
 void DormandPrince::extend()
 {
   auto coefficient = dop853_a_dense.begin();

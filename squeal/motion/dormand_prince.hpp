@@ -42,9 +42,6 @@ class DormandPrince final : public Integrator {
   /// The first `events_max` zeros of the switching functions, by ascending time.
   const std::vector<SwitchEvent>& events() const { return events_; }
 
-  /// Archives all data that the further motion depends on; the sides belong to the motion.
-  void exchange(StateArchive& archive);
-
  private:
   /// A zero of the switching function i within the step being tried.
   struct Crossing {

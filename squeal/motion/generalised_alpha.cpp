@@ -83,13 +83,6 @@ void GeneralisedAlpha::factorize(double t, const Eigen::VectorXd& y, double step
   ++cost_.n_factorizations;
 }
 
-void GeneralisedAlpha::exchange(StateArchive& archive)
-{
-  archive(t_, step_, step_next_, error_held_, y_, begin_, a_, a_begin_, end_, a_end_);
-  archive(step_factorized_, tangent_, cost_);
-  if (archive.gives() && tangent_.size() > 0) newton_.compute(tangent_);
-}
-
 /// q_1 and v_1 from a_1.
 void GeneralisedAlpha::place_end(double step)
 {

@@ -38,9 +38,6 @@ class GeneralisedAlpha final : public Integrator {
 
   const Eigen::VectorXd& at(double t) override;
 
-  /// Archives all data that the further motion depends on; the sides belong to the motion.
-  void exchange(StateArchive& archive);
-
  private:
   void advance();
   double try_step(double step);

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "squeal/brake/contact.hpp"
-#include "squeal/motion/state_archive.hpp"
 
 namespace chladni::squeal {
 
@@ -115,8 +114,6 @@ struct SwitchEvent {
   double t;        ///< s
   Eigen::Index i;  ///< index of the switching function
   double side;     ///< its new side: 1 or -1
-
-  void exchange(StateArchive& archive) { archive(t, i, side); }
 };
 
 /// Work of an integration so far.
@@ -125,8 +122,6 @@ struct IntegrationCost {
   std::int64_t n_rejected = 0;
   std::int64_t n_factorizations = 0;
   std::int64_t n_events = 0;  ///< number of located changes of sides
-
-  void exchange(StateArchive& archive) { archive(n_steps, n_rejected, n_factorizations, n_events); }
 };
 
 /// An integrator with adaptive steps and dense output.

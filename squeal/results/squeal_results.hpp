@@ -14,6 +14,12 @@
 
 namespace chladni::squeal {
 
+/// Inputs of a run; only a run with the same inputs can continue an interrupted one.
+struct RunOrigin {
+  mbs_export::Provenance provenance;  ///< provenance of the results
+  std::string inputs;                 ///< digests of the input files, and versions of the programs
+};
+
 /// All results of a study; results that were not asked for are absent.
 struct SquealResults {
   std::optional<double> wheel_radius;  ///< m, for road speeds; absent when none was given

@@ -107,33 +107,6 @@ Windows read_windows(const Reader& file)
   return windows;
 }
 
-/// One row for each time.
-void write_snapshots(Writer& file, const Snapshots& snapshots)
-{
-  file.write("transient/snapshots/t", snapshots.t, "s");
-  file.write("transient/snapshots/q", snapshots.q.transpose(), "m kg^(1/2)");
-  file.write("transient/snapshots/q_dot", snapshots.v.transpose(), "m kg^(1/2) / s");
-  file.write("transient/snapshots/energy", snapshots.energy, "J");
-  file.attribute("transient/snapshots", "sampling",
-                 "single states: no signal, they may be further apart than its periods");
-}
-
-/// At n times, or none: models without a body have no modes. Files of earlier versions have them at
-/// the times of the history.
-Snapshots read_snapshots(const Reader& file)
-{
-  const bool own = file.contains("transient/snapshots/t");
-  const std::string group = own ? "transient/snapshots" : "transient/history";
-  const std::vector<double> energy = read_series(file, group + "/energy");
-  const auto n = static_cast<Eigen::Index>(energy.size());
-  std::vector<double> t;
-  if (own || n > 0) t = read_times(file, group + "/t");
-  if (std::ssize(t) != n)
-    file.fail(group + "/energy", "expected as many values as there are times, or none");
-  const Eigen::MatrixXd q = file.matrix(group + "/q", {n});
-  return {t, q.transpose(), file.matrix(group + "/q_dot", {n, q.cols()}).transpose(), energy};
-}
-
 void write_events(Writer& file, const Transient& run)
 {
   std::vector<double> t;
@@ -223,7 +196,6 @@ void write_transient(Writer& file, const Transient& run)
   write_windows(file, run.windows);
   write_history(file, "transient/history", run.history);
   write_band(file, run.band);
-  write_snapshots(file, run.snapshots);
   write_history(file, "transient/tail", run.tail);
 }
 
@@ -246,7 +218,6 @@ Transient read_transient(const Reader& file)
           .windows = read_windows(file),
           .band = read_band(file),
           .history = read_history(file, "transient/history"),
-          .snapshots = read_snapshots(file),
           .tail = read_history(file, "transient/tail"),
           .tail_a = {},
           .N_min = file.real("transient/N_min"),

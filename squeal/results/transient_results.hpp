@@ -56,15 +56,6 @@ struct History {
   std::vector<double> slip_speed = {};
 };
 
-/// Complete states at single times, in the frame that rotates with the disc. They do not form a
-/// signal, because their distance may exceed the periods of the modes.
-struct Snapshots {
-  std::vector<double> t;       ///< s
-  Eigen::MatrixXd q;           ///< [n_modes x n_t] m kg^(1/2)
-  Eigen::MatrixXd v;           ///< [n_modes x n_t] m kg^(1/2) / s
-  std::vector<double> energy;  ///< kinetic and elastic energy of the disc in this frame, J
-};
-
 /// A loss or gain of contact at a point of a pad.
 struct ContactEvent {
   double t;    ///< s
@@ -85,11 +76,10 @@ struct Transient {
   std::int64_t n_events = 0;         ///< located by "dormand-prince" only; 0 for other methods
   std::vector<ContactEvent> events;  ///< the first events
   Envelope envelope;
-  Windows windows;      ///< whole run; empty in files of earlier versions
-  Band band;            ///< frequency content of `history`
-  History history;      ///< whole run
-  Snapshots snapshots;  ///< whole run; empty for models without a body
-  History tail;         ///< end of the run with every sample
+  Windows windows;  ///< whole run; empty in files of earlier versions
+  Band band;        ///< frequency content of `history`
+  History history;  ///< whole run
+  History tail;     ///< end of the run with every sample
   /// 1-based numbers of the body's modes in `tail_a`; empty without a body and when read from a
   /// file.
   std::vector<int> mode_numbers = {};

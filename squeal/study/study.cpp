@@ -113,7 +113,7 @@ SquealResults run(const Brake& brake, const StudyOptions& options, const StudyKe
     };
     report(0.0);
     try {
-      step.perform(study, results, {report, keeping.checkpoint, keeping.sound});
+      step.perform(study, results, {report, keeping.sound});
     } catch (const Error& error) {
       results.failure = error.what();
       keep_unfinished(keeping, results);
@@ -480,6 +480,14 @@ void validate_sound(const StudyOptions& study)
   if (rate < 8000 || rate > 192000) {
     throw Error(
         fmt::format("[squeal] wav.rate_Hz = {}; it must be 8000 to 192000, e.g. 48000", rate));
+  }
+  const double longest = double(wav_samples_max) / rate;
+  if (study.transient && study.transient->duration > longest) {
+    throw Error(fmt::format(
+        "[squeal] wav.rate_Hz = {}: a WAV file holds up to 4 GiB, {:.0f} s at this rate, "
+        "and transient.duration_s = {}; take a lower rate, a shorter transient, or no "
+        "wav",
+        rate, longest, study.transient->duration));
   }
 }
 

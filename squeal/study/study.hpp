@@ -21,8 +21,7 @@ using RunProgress = std::function<void(const std::string& analysis, double whole
 /// Callbacks and storage for a long study.
 struct StudyKeeping {
   RunProgress progress = {};
-  Checkpoint* checkpoint = nullptr;  ///< checkpoint of the transient; see Keeping
-  WavSpool* sound = nullptr;         ///< sound of the transient
+  WavRecording* sound = nullptr;  ///< sound of the transient
   /// Called before the first analysis, and after each one while others are missing.
   std::function<void(const SquealResults&)> unfinished = {};
   SquealResults begin = {};  ///< results of an unfinished run of the same study, which are kept

@@ -46,14 +46,6 @@ std::optional<PeakFinder::Peak> PeakFinder::take()
   return std::exchange(largest_, std::nullopt);
 }
 
-void PeakFinder::exchange(StateArchive& archive)
-{
-  std::optional<double> t = largest_ ? std::optional(largest_->t) : std::nullopt,
-                        value = largest_ ? std::optional(largest_->value) : std::nullopt;
-  archive(before_, last_, n_seen_, t, value);
-  largest_ = t && value ? std::optional(Peak{*t, *value}) : std::nullopt;
-}
-
 Recorder::Recorder(const RecordingPlan& plan, double rest)
     : plan_(plan), rest_(rest), history_(plan.history, n_signals)
 {
@@ -92,19 +84,6 @@ void Recorder::finish()
 {
   for (const Eigen::VectorXd& rest : history_.finish()) keep(rest);
   if (n_in_window_ > 0) end_window();  // too short for a point of the envelope
-}
-
-void Recorder::exchange(StateArchive& archive)
-{
-  archive(begin_, history_, n_in_window_, n_open_, velocity_, displacement_);
-  archive(transient_.N_min, transient_.N_max, transient_.slip_speed_min, transient_.t_zero_force);
-  for (History* x : {&transient_.history, &transient_.tail})
-    archive(x->t, x->pad_velocity, x->pad_displacement, x->N_up, x->N_lo, x->slip_speed);
-  Envelope& envelope = transient_.envelope;
-  archive(envelope.t, envelope.pad_velocity, envelope.pad_displacement);
-  Windows& windows = transient_.windows;
-  archive(windows.t, windows.speed, windows.N_up_min, windows.N_up_max, windows.N_lo_min,
-          windows.N_lo_max, windows.slip_speed_min, windows.open);
 }
 
 /// The next sample of the history.
@@ -170,39 +149,17 @@ Eigen::VectorXd in_inertial_frame(const InertialDisc& inertial, const Eigen::Vec
 
 }  // namespace
 
-SnapshotRecorder::SnapshotRecorder(const Disc& disc, const std::optional<InertialDisc>& inertial,
-                                   const RecordingPlan& plan, const TransientCase& run)
-    : omega_(disc.omega), inertial_(inertial), plan_(plan), run_(run)
+TailRecorder::TailRecorder(const Disc& disc, const std::optional<InertialDisc>& inertial,
+                           const RecordingPlan& plan, const TransientCase& run)
+    : inertial_(inertial), plan_(plan), run_(run)
 {
-  const auto n_kept = static_cast<Eigen::Index>((plan.n_steps - 1) / plan.snapshots + 1);
-  snapshots_.q.setZero(disc.n_modes(), n_kept);
-  snapshots_.v.setZero(disc.n_modes(), n_kept);
   if (inertial) tail_a_.setZero(disc.n_modes(), static_cast<Eigen::Index>(plan.n_tail));
 }
 
-void SnapshotRecorder::add(std::int64_t i, double t, const ModalSteps& steps)
+void TailRecorder::add(std::int64_t i, double t, const ModalSteps& steps)
 {
-  const bool in_tail = inertial_ && i >= plan_.n_steps - plan_.n_tail;
-  if (!in_tail && i % plan_.snapshots != 0) return;
-  const ModalState x = steps.state();
-  if (in_tail) tail_a_.col(n_tail_++) = in_inertial_frame(*inertial_, x.q, turn_at(run_, t).angle);
-  if (i % plan_.snapshots != 0) return;
-  const auto column = static_cast<Eigen::Index>(snapshots_.t.size());
-  snapshots_.q.col(column) = x.q;
-  snapshots_.v.col(column) = x.v;
-  snapshots_.t.push_back(t);
-  snapshots_.energy.push_back(0.5 * (x.v.squaredNorm() + omega_.cwiseProduct(x.q).squaredNorm()));
-}
-
-Snapshots SnapshotRecorder::snapshots() const
-{
-  const auto n = static_cast<Eigen::Index>(snapshots_.t.size());
-  return {snapshots_.t, snapshots_.q.leftCols(n), snapshots_.v.leftCols(n), snapshots_.energy};
-}
-
-void SnapshotRecorder::exchange(StateArchive& archive)
-{
-  archive(snapshots_.t, snapshots_.q, snapshots_.v, snapshots_.energy, tail_a_, n_tail_);
+  if (!inertial_ || i < plan_.n_steps - plan_.n_tail) return;
+  tail_a_.col(n_tail_++) = in_inertial_frame(*inertial_, steps.state().q, turn_at(run_, t).angle);
 }
 
 }  // namespace chladni::squeal

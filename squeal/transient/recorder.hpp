@@ -8,7 +8,6 @@
 #include "squeal/brake/disc.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake_options.hpp"
-#include "squeal/motion/state_archive.hpp"
 #include "squeal/results/squeal_results.hpp"
 #include "squeal/transient/resampling.hpp"
 #include "squeal/transient/transient_steps.hpp"
@@ -31,8 +30,6 @@ class PeakFinder {
   /// The largest peak since the last call; absent when there was none.
   std::optional<Peak> take();
 
-  void exchange(StateArchive& archive);
-
  private:
   double before_ = 0.0;
   double last_ = 0.0;
@@ -48,7 +45,6 @@ struct RecordingPlan {
   std::int64_t n_fine_windows;  ///< number of points with this window, before `late_window` applies
   std::int64_t late_window;     ///< steps per point of the envelope afterwards
   Decimation history;           ///< decimation of the history
-  std::int64_t snapshots;       ///< steps per snapshot
   std::int64_t n_tail;          ///< number of steps in the tail
 };
 
@@ -69,7 +65,6 @@ class Recorder {
   void add(const Sample& sample);
   /// Completes pending data after the last sample.
   void finish();
-  void exchange(StateArchive& archive);
   /// Whether sample i belongs to the tail.
   bool in_tail(std::int64_t i) const { return i >= plan_.n_steps - plan_.n_tail; }
 
@@ -94,31 +89,25 @@ class Recorder {
   PeakFinder displacement_;
 };
 
-/// Records modal states while a transient runs: snapshots over the whole run and, for an
-/// axisymmetric disc, all displacements of the tail in the inertial frame.
-class SnapshotRecorder {
+/// Records all displacements of the tail of a transient of an axisymmetric disc, in the inertial
+/// frame.
+class TailRecorder {
  public:
   /// @param inertial, run  must outlive the recorder
-  SnapshotRecorder(const Disc& disc, const std::optional<InertialDisc>& inertial,
-                   const RecordingPlan& plan, const TransientCase& run);
+  TailRecorder(const Disc& disc, const std::optional<InertialDisc>& inertial,
+               const RecordingPlan& plan, const TransientCase& run);
 
   /// Records sample i at time t (s), which is the present state of the steps.
   void add(std::int64_t i, double t, const ModalSteps& steps);
 
-  /// The snapshots so far.
-  Snapshots snapshots() const;
   /// The displacements for Transient::tail_a.
   Eigen::MatrixXd tail_a() const { return tail_a_.leftCols(n_tail_); }
 
-  void exchange(StateArchive& archive);
-
  private:
-  Eigen::VectorXd omega_;
   const std::optional<InertialDisc>& inertial_;
   RecordingPlan plan_;
   const TransientCase& run_;
-  Snapshots snapshots_;  ///< allocated for the whole run
-  Eigen::MatrixXd tail_a_;
+  Eigen::MatrixXd tail_a_;  ///< allocated for the whole tail
   Eigen::Index n_tail_ = 0;
 };
 

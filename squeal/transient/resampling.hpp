@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "squeal/motion/state_archive.hpp"
-
 namespace chladni::squeal {
 
 /// Reduces the sampling rate of several signals by `factor`, after a windowed-sinc low-pass filter
@@ -29,8 +27,6 @@ class DecimatorStage {
   /// After the last sample: the next of the remaining output samples, whose filter extends beyond
   /// the end.
   std::optional<Eigen::VectorXd> take_rest();
-
-  void exchange(StateArchive& archive) { archive(samples_, n_in_, n_out_); }
 
  private:
   Eigen::VectorXd emit();
@@ -71,11 +67,6 @@ class Decimator {
   /// @return the remaining output samples
   std::vector<Eigen::VectorXd> finish();
 
-  void exchange(StateArchive& archive)
-  {
-    for (DecimatorStage& stage : stages_) archive(stage);
-  }
-
  private:
   std::optional<Eigen::VectorXd> add_from(std::size_t stage, const Eigen::VectorXd& x);
 
@@ -99,9 +90,6 @@ class Resampler {
   std::size_t n_waiting() const { return out_.size(); }
   /// Ends the signal.
   void finish();
-
-  /// Archives the state, without the output samples that were not taken.
-  void exchange(StateArchive& archive) { archive(in_, n_in_, n_out_); }
 
  private:
   double kernel(double time) const;

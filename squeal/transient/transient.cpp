@@ -41,8 +41,8 @@ struct PreparedTransient {
   double rest_height;      ///< height z of the first upper pad at rest, m
   double first_sample;     ///< time of the first sample divided by the sampling step
   std::unique_ptr<TransientSteps> steps;
-  std::optional<SnapshotRecorder> states;  ///< for a brake with a body; reads `modal`
-  const ModalSteps* modal;                 ///< the steps of a brake with a body, else null
+  std::optional<TailRecorder> tail;  ///< for a brake with a body; reads `modal`
+  const ModalSteps* modal;           ///< the steps of a brake with a body, else null
 };
 
 /// Each point of the programs lies in the tables of friction.
@@ -130,7 +130,7 @@ PreparedTransient prepared_with_body(const FlexibleDisc& brake, const TransientC
           .rest_height = 0.5 * options.thickness,
           .first_sample = 0.5,
           .steps = std::move(steps),
-          .states = SnapshotRecorder(disc, inertial, plan, run),
+          .tail = TailRecorder(disc, inertial, plan, run),
           .modal = modal};
 }
 
@@ -154,7 +154,7 @@ PreparedTransient prepared_lumped(const LumpedBrake& brake, const TransientCase&
           .rest_height = brake.rest_height(),
           .first_sample = 0.0,
           .steps = std::make_unique<LumpedSteps>(brake, run, plan.step),
-          .states = std::nullopt,
+          .tail = std::nullopt,
           .modal = nullptr};
 }
 
@@ -232,45 +232,26 @@ struct Recording {
   const TransientCase& run;
   Recorder recorder;
   std::optional<Resampler> sound = {};
-  std::int64_t n = 0;  ///< samples so far
 };
 
-/// Samples between two looks at the clock, and of the sound that go to its file together.
-constexpr std::int64_t samples_together = 1024;
+/// Samples of the sound that go to its file together.
+constexpr std::size_t samples_together = 1024;
 
-/// From the first sample, or from where the checkpoint is, to the last.
 /// @return whether the motion stayed bounded
 bool record(Recording& at, const Keeping& keeping)
 {
-  TransientSteps& steps = *at.ready.steps;
   const RecordingPlan& plan = at.ready.plan;
-  const auto exchange = [&](StateArchive& archive) {
-    archive(at.n, steps, at.recorder);
-    if (at.ready.states) archive(*at.ready.states);
-    if (at.sound) archive(*at.sound, *keeping.sound);
-  };
-  const auto hand_over_sound = [&] {
-    if (at.sound) keeping.sound->add(at.sound->take());
-  };
-  const auto keep = [&] {
-    hand_over_sound();
-    keeping.checkpoint->keep(exchange);
-  };
-  if (keeping.checkpoint) keeping.checkpoint->give_back(exchange);
-  while (at.n < plan.n_steps) {
-    const double t = (double(at.n) + at.ready.first_sample) * plan.step;
-    const auto& contacts = steps.next();
+  for (std::int64_t i = 0; i < plan.n_steps; ++i) {
+    const double t = (double(i) + at.ready.first_sample) * plan.step;
+    const auto& contacts = at.ready.steps->next();
     if (!is_bounded(contacts)) return false;
-    at.recorder.add({at.n, t, turn_at(at.run, t).speed, contacts});
-    if (at.ready.states) at.ready.states->add(at.n, t, *at.ready.modal);
+    at.recorder.add({i, t, turn_at(at.run, t).speed, contacts});
+    if (at.ready.tail) at.ready.tail->add(i, t, *at.ready.modal);
     if (at.sound) at.sound->add(contacts.front().upper.z_dot);
-    if (keeping.progress && at.n % plan.window == 0)
-      keeping.progress(double(at.n) / double(plan.n_steps));
-    if (++at.n % samples_together != 0) continue;
-    hand_over_sound();
-    if (keeping.checkpoint && keeping.checkpoint->is_due()) keep();
+    if (keeping.progress && i % plan.window == 0)
+      keeping.progress(double(i) / double(plan.n_steps));
+    if (at.sound && at.sound->n_waiting() >= samples_together) keeping.sound->add(at.sound->take());
   }
-  if (keeping.checkpoint && keeping.checkpoint->was_written()) keep();
   return true;
 }
 
@@ -286,10 +267,7 @@ Transient result_of(const Recording& recording)
   result.n_contact_evaluations = ready.steps->n_contact_evaluations();
   result.n_events = ready.steps->n_events();
   result.events = ready.steps->events();
-  if (ready.states) {
-    result.snapshots = ready.states->snapshots();
-    result.tail_a = ready.states->tail_a();
-  }
+  if (ready.tail) result.tail_a = ready.tail->tail_a();
   return result;
 }
 
@@ -344,7 +322,6 @@ constexpr int periods_per_window = 4;
 constexpr int periods_in_tail = 100;
 /// Most samples of the history: 10 MB. 6 s of them hold what is below 12 kHz.
 constexpr std::int64_t history_max = 200000;
-constexpr std::int64_t snapshots_max = 20000;
 /// Most points of the envelope, the first half of them of a few periods: a growth rate is read
 /// there.
 constexpr std::int64_t windows_max = 20000;
@@ -417,7 +394,6 @@ RecordingPlan recording_plan(const TransientCase& run, const FrequencyRange& ome
           .n_fine_windows = n_fine,
           .late_window = std::max(window, parts_of(n_behind, windows_max - n_fine)),
           .history = decimation_to(n, history_max),
-          .snapshots = parts_of(n, snapshots_max),
           .n_tail = std::min({n, tail, tail_max})};
 }
 

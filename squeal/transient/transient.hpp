@@ -8,7 +8,6 @@
 #include "squeal/models/brake.hpp"
 #include "squeal/results/squeal_results.hpp"
 #include "squeal/study_options.hpp"
-#include "squeal/transient/checkpoint.hpp"
 #include "squeal/transient/recorder.hpp"
 #include "squeal/transient/wav.hpp"
 
@@ -20,8 +19,7 @@ using Progress = std::function<void(double)>;
 /// Callbacks and storage for a long transient.
 struct Keeping {
   Progress progress = {};
-  Checkpoint* checkpoint = nullptr;  ///< stores the state, and provides the state to start with
-  WavSpool* sound = nullptr;         ///< receives the pad velocity as sound
+  WavRecording* sound = nullptr;  ///< receives the pad velocity as sound
 };
 
 /// The motion after a small displacement of the first pads, at rest in the inertial frame, by the

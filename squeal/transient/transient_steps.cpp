@@ -52,7 +52,6 @@ class SplittingSteps final : public ModalSteps {
   }
   std::int64_t n_steps() const override { return n_; }
   std::int64_t n_contact_evaluations() const override { return 2 * n_; }
-  void exchange(StateArchive& archive) override { archive(x_.q, x_.v, v_before_, n_); }
 
  private:
   ContactKick kick_;
@@ -97,7 +96,6 @@ class ExponentialSteps final : public ModalSteps {
   }
   std::int64_t n_steps() const override { return n_; }
   std::int64_t n_contact_evaluations() const override { return 2 * n_; }
-  void exchange(StateArchive& archive) override { archive(x_, p_before_, n_); }
 
  private:
   InertialDisc inertial_;
@@ -152,7 +150,6 @@ class AdaptiveSteps final : public ModalSteps {
     return events;
   }
   std::int64_t n_events() const override { return method_.cost().n_events; }
-  void exchange(StateArchive& archive) override { archive(motion_, method_, y_, n_); }
 
  private:
   static StepControl control_of(const Motion& motion, const IntegratorChoice& choice)

@@ -7,7 +7,6 @@
 #include "squeal/brake/contact.hpp"
 #include "squeal/models/brake.hpp"
 #include "squeal/motion/splitting.hpp"
-#include "squeal/motion/state_archive.hpp"
 #include "squeal/results/squeal_results.hpp"
 #include "squeal/transient/integrator_choice.hpp"
 
@@ -30,9 +29,6 @@ class TransientSteps {
   virtual std::int64_t n_contact_evaluations() const = 0;
   virtual std::vector<ContactEvent> events() const { return {}; }
   virtual std::int64_t n_events() const { return 0; }
-
-  /// Archives all data that the further samples depend on.
-  virtual void exchange(StateArchive& archive) = 0;
 };
 
 /// A transient of a disc with a body, sampled at t_i = (i + 1/2) step.
@@ -70,7 +66,6 @@ class LumpedSteps final : public TransientSteps {
   const std::vector<ContactResult<double>>& next() override;
   std::int64_t n_steps() const override { return n_; }
   std::int64_t n_contact_evaluations() const override { return n_evaluations_; }
-  void exchange(StateArchive& archive) override { archive(x_, n_, n_evaluations_); }
 
  private:
   const LumpedBrake& brake_;

@@ -1,15 +1,11 @@
 #include "squeal/transient/wav.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <limits>
+#include <cstddef>
+#include <fstream>
 #include <span>
 #include <utility>
 
@@ -19,19 +15,16 @@ namespace chladni::squeal {
 
 namespace {
 
-constexpr std::uint64_t most_of_32_bits = std::numeric_limits<std::uint32_t>::max();
-
 /// Appends the `n` low bytes of x, least significant first.
 void append(std::string& bytes, std::uint64_t x, int n)
 {
   for (int i = 0; i < n; ++i) bytes.push_back(static_cast<char>((x >> (8 * i)) & 0xFFU));
 }
 
-/// Name and size; a size that is in `ds64` is full here.
 std::string chunk_head(const std::string& name, std::uint64_t size)
 {
   std::string bytes = name;
-  append(bytes, std::min(size, most_of_32_bits), 4);
+  append(bytes, size, 4);
   return bytes;
 }
 
@@ -55,17 +48,6 @@ std::string format_chunk(int rate_Hz)
   return chunk("fmt ", bytes);
 }
 
-/// Of a file whose sizes do not fit into 32 bits.
-std::string sizes_chunk(std::uint64_t size, std::uint64_t n_samples)
-{
-  std::string bytes;
-  append(bytes, size, 8);           // of what follows "RF64" and its size
-  append(bytes, 2 * n_samples, 8);  // of the samples
-  append(bytes, n_samples, 8);
-  append(bytes, 0, 4);  // no other chunk is as large
-  return chunk("ds64", bytes);
-}
-
 double scale_of(double full_scale)
 {
   return full_scale > 0.0 ? full_scale : 1.0;
@@ -75,6 +57,12 @@ double scale_of(double full_scale)
 
 std::string wav_header(const WavFormat& format)
 {
+  if (format.n_samples > wav_samples_max) {
+    throw Error(
+        fmt::format("a WAV file holds up to 4 GiB, {:.0f} s at {} Hz, and the sound has {:.0f} s",
+                    double(wav_samples_max) / format.rate_Hz, format.rate_Hz,
+                    double(format.n_samples) / format.rate_Hz));
+  }
   std::string comment =
       fmt::format("full scale = {:.9g} {}", scale_of(format.full_scale), format.unit);
   comment.push_back('\0');
@@ -82,92 +70,49 @@ std::string wav_header(const WavFormat& format)
   const std::string parts =
       format_chunk(format.rate_Hz) + chunk("LIST", "INFO" + chunk("ICMT", comment));
   const std::string data = chunk_head("data", 2 * n);
-  const std::uint64_t size = 4 + parts.size() + data.size() + 2 * n;
-  if (size <= most_of_32_bits) return chunk_head("RIFF", size) + "WAVE" + parts + data;
-  const std::uint64_t large = size + sizes_chunk(0, 0).size();
-  return chunk_head("RF64", most_of_32_bits) + "WAVE" + sizes_chunk(large, n) + parts +
-         chunk_head("data", most_of_32_bits);
+  return chunk_head("RIFF", 4 + parts.size() + data.size() + 2 * n) + "WAVE" + parts + data;
 }
 
-WavWriter::WavWriter(const std::filesystem::path& path, const WavFormat& format)
-    : file_(path.string()), scale_(scale_of(format.full_scale))
-{
-  file_.write(wav_header(format));
-}
+namespace {
 
-void WavWriter::write(std::span<const float> x)
+/// The samples with 16 bits.
+std::string levels(std::span<const float> x, double full_scale)
 {
-  std::string samples;
-  samples.reserve(2 * x.size());
+  std::string bytes;
+  bytes.reserve(2 * x.size());
   for (const float value : x) {
-    const auto level = static_cast<std::int16_t>(std::lround(32767.0 * double(value) / scale_));
-    append(samples, static_cast<std::uint16_t>(level), 2);
+    const auto level =
+        static_cast<std::int16_t>(std::lround(32767.0 * double(value) / scale_of(full_scale)));
+    append(bytes, static_cast<std::uint16_t>(level), 2);
   }
-  file_.write(samples);
+  return bytes;
 }
 
-double WavWriter::commit()
-{
-  file_.commit();
-  return scale_;
-}
+/// Samples that are written, and read again, at a time.
+constexpr std::size_t block = 1U << 16U;
+/// Where samples wait for their scale; no header is longer.
+constexpr std::size_t waiting_from = 256;
+
+}  // namespace
 
 double write_wav(const std::filesystem::path& path, std::span<const float> x, int rate_Hz,
                  const std::string& unit)
 {
   double largest = 0.0;
   for (const float value : x) largest = std::max(largest, std::abs(double(value)));
-  WavWriter file(path, {std::ssize(x), rate_Hz, largest, unit});
-  file.write(x);
-  return file.commit();
+  files::Replacement file(path.string());
+  file.write(wav_header({std::ssize(x), rate_Hz, largest, unit}));
+  for (; !x.empty(); x = x.subspan(std::min(block, x.size())))
+    file.write(levels(x.first(std::min(block, x.size())), largest));
+  file.commit();
+  return scale_of(largest);
 }
 
-namespace {
-
-/// Samples that are written, and read again, at a time.
-constexpr std::size_t block = 1U << 16U;
-
-}  // namespace
-
-WavSpool::WavSpool(std::filesystem::path wav, std::filesystem::path spool, int rate_Hz)
-    : wav_(std::move(wav)), spool_(std::move(spool)), rate_Hz_(rate_Hz)
+WavRecording::WavRecording(std::filesystem::path file, int rate_Hz)
+    : path_(std::move(file)), rate_Hz_(rate_Hz)
 {}
 
-WavSpool::~WavSpool()
-{
-  if (unfinished_) unlink(spool_.c_str());
-  if (descriptor_ >= 0) close(descriptor_);
-}
-
-void WavSpool::fail() const
-{
-  throw Error(fmt::format("{}: the samples of the sound cannot be written or read: {}",
-                          spool_.string(), std::strerror(errno)));
-}
-
-void WavSpool::open_new()
-{
-  unlink(spool_.c_str());
-  unfinished_.emplace(spool_.string());
-  descriptor_ = open(spool_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail();
-}
-
-void WavSpool::open_with(std::int64_t n)
-{
-  descriptor_ = open(spool_.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (descriptor_ < 0) fail();
-  const auto size = n * static_cast<std::int64_t>(sizeof(float));
-  struct stat status {};
-  if (fstat(descriptor_, &status) != 0) fail();
-  if (!S_ISREG(status.st_mode) || status.st_size < size) {
-    throw Error(fmt::format("{}: lacks samples of the sound; start again without --resume",
-                            spool_.string()));
-  }
-  if (ftruncate(descriptor_, size) != 0 || lseek(descriptor_, 0, SEEK_END) < 0) fail();
-}
-
-void WavSpool::add(const std::vector<float>& x)
+void WavRecording::add(const std::vector<float>& x)
 {
   for (const float value : x) largest_ = std::max(largest_, std::abs(double(value)));
   waiting_.insert(waiting_.end(), x.begin(), x.end());
@@ -175,52 +120,49 @@ void WavSpool::add(const std::vector<float>& x)
   if (waiting_.size() >= block) flush();
 }
 
-void WavSpool::flush()
+void WavRecording::flush()
 {
-  if (descriptor_ < 0) open_new();
-  std::span<const std::byte> bytes = std::as_bytes(std::span(waiting_));
-  while (!bytes.empty()) {
-    const ssize_t n = write(descriptor_, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) fail();
-    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  if (!file_) {
+    if (files::is_stream(path_))
+      throw Error(
+          fmt::format("{}: is no ordinary file, and the sound is scaled in it", path_.string()));
+    file_.emplace(path_.string());
+    file_->write(std::string(waiting_from, '\0'));
   }
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(waiting_));
+  file_->write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   waiting_.clear();
 }
 
-void WavSpool::finish()
+/// Samples of 16 bits take half the room, so that writing them never reaches those to be read.
+void WavRecording::scale()
+{
+  std::fstream file(file_->temporary(), std::ios::binary | std::ios::in | std::ios::out);
+  std::string bytes = wav_header({.n_samples = n_, .rate_Hz = rate_Hz_, .full_scale = largest_});
+  std::size_t begin = 0;
+  std::vector<float> x;
+  for (std::size_t read = 0; read < std::size_t(n_); read += x.size()) {
+    x.resize(std::min(block, std::size_t(n_) - read));
+    file.seekg(std::streamoff(waiting_from + read * sizeof(float)));
+    file.read(reinterpret_cast<char*>(x.data()), std::streamsize(x.size() * sizeof(float)));
+    bytes += levels(x, largest_);
+    file.seekp(std::streamoff(begin)).write(bytes.data(), std::streamsize(bytes.size()));
+    begin += bytes.size();
+    bytes.clear();
+  }
+  file.seekp(std::streamoff(begin)).write(bytes.data(), std::streamsize(bytes.size()));
+  if (!file.flush()) file_->fail();
+  file.close();
+  std::filesystem::resize_file(file_->temporary(), begin + bytes.size());
+}
+
+void WavRecording::finish()
 {
   flush();
-  WavWriter file(wav_, {.n_samples = n_, .rate_Hz = rate_Hz_, .full_scale = largest_});
-  std::vector<float> samples(block);
-  if (lseek(descriptor_, 0, SEEK_SET) < 0) fail();
-  for (std::int64_t left = n_; left > 0;) {
-    const auto wanted = static_cast<std::size_t>(std::min<std::int64_t>(left, block));
-    std::span<std::byte> bytes = std::as_writable_bytes(std::span(samples).first(wanted));
-    while (!bytes.empty()) {
-      const ssize_t n = read(descriptor_, bytes.data(), bytes.size());
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) fail();
-      bytes = bytes.subspan(static_cast<std::size_t>(n));
-    }
-    file.write(std::span(samples).first(wanted));
-    left -= static_cast<std::int64_t>(wanted);
-  }
-  full_scale_ = file.commit();
-}
-
-void WavSpool::exchange(StateArchive& archive)
-{
-  if (!archive.gives()) flush();
-  archive(n_, largest_);
-  if (archive.gives()) return open_with(n_);
-  if (fsync(descriptor_) != 0) fail();
-  unfinished_.reset();
-}
-
-void WavSpool::remove()
-{
-  unlink(spool_.c_str());
+  scale();
+  file_->commit();
+  file_.reset();
+  full_scale_ = scale_of(largest_);
 }
 
 }  // namespace chladni::squeal

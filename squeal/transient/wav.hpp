@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "common/files/output_file.hpp"
-#include "squeal/motion/state_archive.hpp"
 
 namespace chladni::squeal {
 
@@ -20,29 +19,13 @@ struct WavFormat {
   std::string unit = "m/s";  ///< unit of `full_scale`
 };
 
-/// The header of the file, all bytes before the samples. A file above 4 GiB becomes an RF64 file:
-/// its sizes are in a chunk `ds64`, and the 32-bit sizes have their maximum. The value of full
-/// scale is in a comment (chunk LIST, INFO, ICMT): "full scale = 6.73 m/s".
-/// Source: EBU Tech 3306, MBWF / RF64 (2009).
+/// Most samples of a file, whose sizes have 32 bits, less room for the header.
+inline constexpr std::int64_t wav_samples_max = ((std::int64_t{1} << 32) - 1024) / 2;
+
+/// The header of the file, all bytes before the samples. The value of full scale is in a comment
+/// (chunk LIST, INFO, ICMT): "full scale = 6.73 m/s".
+/// @throws chladni::Error for more than `wav_samples_max` samples.
 std::string wav_header(const WavFormat& format);
-
-/// Writes a WAV file piece by piece; an existing file is replaced only by `commit`.
-class WavWriter {
- public:
-  /// Opens the file.
-  /// @throws chladni::Error when the file cannot be written.
-  WavWriter(const std::filesystem::path& path, const WavFormat& format);
-
-  /// Appends samples.
-  void write(std::span<const float> x);
-  /// Completes the file.
-  /// @return full scale; 1 for silence
-  double commit();
-
- private:
-  files::Replacement file_;
-  double scale_;
-};
 
 /// Writes a WAV file whose largest sample is full scale.
 /// @return full scale, the largest |x|; 1 for silence
@@ -50,17 +33,12 @@ class WavWriter {
 double write_wav(const std::filesystem::path& path, std::span<const float> x, int rate_Hz,
                  const std::string& unit = "m/s");
 
-/// Collects the samples of a sound in a file of their own until the WAV file is written, because
-/// full scale is the largest sample, which is known only at the end. So a long sound needs no
-/// memory.
-class WavSpool {
+/// Writes a sound of unknown length and loudness. The samples go to the file as they come; at the
+/// end they are scaled there, because full scale is the largest of them. So a long sound needs no
+/// memory. Without `finish` no file is left, and an existing one remains.
+class WavRecording {
  public:
-  /// @param wav    the WAV file
-  /// @param spool  file for the samples, used by nobody else; a symbolic link is not followed
-  WavSpool(std::filesystem::path wav, std::filesystem::path spool, int rate_Hz);
-  ~WavSpool();
-  WavSpool(const WavSpool&) = delete;
-  WavSpool& operator=(const WavSpool&) = delete;
+  WavRecording(std::filesystem::path file, int rate_Hz);
 
   int rate_Hz() const { return rate_Hz_; }  ///< of the samples
 
@@ -68,29 +46,19 @@ class WavSpool {
   /// @throws chladni::Error when the file cannot be written.
   void add(const std::vector<float>& x);
 
-  /// Writes the WAV file.
+  /// Completes the WAV file.
   /// @throws chladni::Error when it cannot be written.
   void finish();
   /// Full scale, m/s; absent before `finish`.
   const std::optional<double>& full_scale() const { return full_scale_; }
 
-  /// Archives the position in the samples; from then on their file outlives the process.
-  /// @throws chladni::Error when a restored state's file of samples is missing or too short.
-  void exchange(StateArchive& archive);
-
-  /// Removes the file of the samples.
-  void remove();
-
  private:
-  void open_new();
-  void open_with(std::int64_t n);
   void flush();
-  [[noreturn]] void fail() const;
+  void scale();
 
-  std::filesystem::path wav_, spool_;
+  std::filesystem::path path_;
   int rate_Hz_;
-  int descriptor_ = -1;  ///< file descriptor; negative before the first sample
-  std::optional<files::UnfinishedFile> unfinished_;
+  std::optional<files::Replacement> file_;  ///< from the first samples on
   std::vector<float> waiting_;
   std::int64_t n_ = 0;
   double largest_ = 0.0;

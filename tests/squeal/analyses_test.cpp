@@ -264,7 +264,7 @@ TEST(Run, YieldsSpectrumSoundAndCriticalValues)
   auto body = analytic_body({kirchhoff_3(1672.13)});
   body.C = 0.5 * Eigen::Matrix2d::Identity();
   const ScratchFolder folder;
-  WavSpool sound(folder.file("disc.wav"), folder.file("disc.samples"), 44100);
+  WavRecording sound(folder.file("disc.wav"), 44100);
   const SquealResults results =
       run(FlexibleDisc(disc_on_ring(body, "track", {}), options), options.study, {.sound = &sound});
   ASSERT_TRUE(results.spectrum && !results.spectrum->peaks.empty());

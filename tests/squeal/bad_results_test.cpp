@@ -36,11 +36,6 @@ TEST(BadResults, AreOthersThanTheGoldenOnes)
   EXPECT_EQ(error_after([](SquealResults&) {}), "");
 }
 
-TEST(Results, OfModelsWithoutABodyHaveNoModes)
-{
-  EXPECT_EQ(error_after([](SquealResults& r) { r.transient->snapshots = Snapshots{}; }), "");
-}
-
 TEST(BadResults, LackValuesOfWhichTheLargestIsAsked)
 {
   expect_refusal("stability_map/values", [](SquealResults& r) {
@@ -99,10 +94,6 @@ TEST(BadResults, CountBelowZero)
 
 TEST(BadResults, HaveHistoriesThatDoNotFitTogether)
 {
-  expect_refusal("transient/snapshots/energy",
-                 [](SquealResults& r) { r.transient->snapshots.energy.resize(5); });
-  expect_refusal("transient/snapshots/q_dot",
-                 [](SquealResults& r) { r.transient->snapshots.v.resize(3, 4); });
   expect_refusal("transient/windows/open", [](SquealResults& r) {
     r.transient->windows = {{0.0}, {1.0}, {1.0}, {1.0}, {1.0}, {1.0}, {1.0}, {0.0, 0.0}};
   });
@@ -143,7 +134,6 @@ TEST(Version1, OfResultsIsReadBitByBit)
   EXPECT_EQ(b.critical_values[0].value, a.critical_values[0].value);
   EXPECT_EQ(b.mode_sensitivity->influences[1].growth_without, 0.25);
   EXPECT_EQ(b.growth[0].envelope.pad_velocity, a.growth[0].envelope.pad_velocity);
-  EXPECT_EQ(b.transient->snapshots.q, a.transient->snapshots.q);
   EXPECT_EQ(b.transient->tail.slip_speed, a.transient->tail.slip_speed);
   EXPECT_EQ(b.transient->events[1].pad, 1);
   EXPECT_EQ(b.limit_cycle->amplitude, a.limit_cycle->amplitude);

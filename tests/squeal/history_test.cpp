@@ -113,7 +113,6 @@ TEST(Windows, OfALongRunBecomeLonger)
                      .n_fine_windows = 20,
                      .late_window = 100,
                      .history = decimation_to(1000, 1000),
-                     .snapshots = 1,
                      .n_tail = 10};
   Recorder recorder(plan, 0.0);
   for (std::int64_t i = 0; i < plan.n_steps; ++i) {
@@ -156,12 +155,13 @@ TEST(PadDisplacement, IsThatOfThePlateUnderThePad)
   SquealOptions options = reference_options();
   options.thickness = 0.022;
   const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
-  const Transient run = transient(FlexibleDisc(disc, options), squealing(0.05));
-  ASSERT_EQ(run.snapshots.t.size(), run.history.t.size());
+  const FlexibleDisc brake(disc, options);
+  const Transient run = transient(brake, squealing(0.05));
+  const auto states = states_of(brake, squealing(0.05), run.step, run.history.t.size());
   double most = 0.0;
   for (std::size_t i = 0; i < run.history.t.size(); ++i) {
     const Shapes ring = shapes_at(disc, options.pads[0].angle - 6.0 * pi * run.history.t[i]);
-    const Eigen::VectorXd q = run.snapshots.q.col(static_cast<Eigen::Index>(i));
+    const Eigen::VectorXd& q = states[i].q;
     const double w = ring.W.dot(q), g_r = ring.W_r.dot(q), g_t = ring.W_t.dot(q);
     const double lift = 0.5 * options.thickness * (std::sqrt(1.0 + g_r * g_r + g_t * g_t) - 1.0);
     most = std::max(most, lift);

@@ -215,8 +215,6 @@ TEST(Integrator, OfAnyKindEndsWhereTheMotionDiverges)
         {.speed = 6.0 * pi, .duration = 1.0, .initial_pad_displacement = 1e-5, .integrator = kind});
     EXPECT_FALSE(run.finished) << name_of(kind);
     ASSERT_FALSE(run.history.t.empty()) << name_of(kind);
-    EXPECT_EQ(run.snapshots.energy.size(), run.snapshots.t.size());
-    EXPECT_EQ(run.snapshots.q.cols(), static_cast<Eigen::Index>(run.snapshots.t.size()));
     for (const double v : run.history.pad_velocity) EXPECT_TRUE(std::isfinite(v));
   }
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -11,11 +12,13 @@
 #include "squeal/transient/resampling.hpp"
 #include "squeal/transient/spectrum.hpp"
 #include "squeal/transient/wav.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 
 namespace chladni::squeal {
 namespace {
 
 using namespace test;
+using files::test::ScratchFolder, files::test::bytes_of, files::test::error_of;
 
 TEST(Spectrum, FindsFrequencyAndAmplitudeBetweenTheLines)
 {
@@ -86,36 +89,39 @@ TEST(WavFile, HoldsTheSamplesAndWhatFullScaleMeans)
   EXPECT_THROW(write_wav("/nowhere/at/all.wav", x, 48000), Error);
 }
 
-std::uint64_t number_64(const std::string& bytes, std::size_t at)
-{
-  return number(bytes, at, 4) + (std::uint64_t{number(bytes, at + 4, 4)} << 32U);
-}
-
-TEST(WavFile, BeyondFourGigabytesIsRF64)
+TEST(WavFile, BeyondFourGigabytesIsRefused)
 {
   // The last file that 32 bits can hold, and one with a sample more.
-  const std::size_t head = wav_header({.n_samples = 0, .rate_Hz = 48000, .full_scale = 3.0}).size();
-  const std::int64_t most = ((1LL << 32) - 1 - static_cast<std::int64_t>(head) + 8) / 2;
-  const std::string small = wav_header({.n_samples = most, .rate_Hz = 48000, .full_scale = 3.0});
-  EXPECT_EQ(small.substr(0, 4), "RIFF");
-  EXPECT_EQ(number(small, 4, 4), head - 8 + 2 * static_cast<std::uint64_t>(most));
-  EXPECT_EQ(small.size(), head);
+  const WavFormat most{.n_samples = wav_samples_max, .rate_Hz = 48000, .full_scale = 3.0};
+  const std::string head = wav_header(most);
+  EXPECT_EQ(number(head, 4, 4), head.size() - 8 + 2 * static_cast<std::uint64_t>(most.n_samples));
+  const std::string error = error_of(
+      [] { wav_header({.n_samples = wav_samples_max + 1, .rate_Hz = 48000, .full_scale = 3.0}); });
+  EXPECT_EQ(error, "a WAV file holds up to 4 GiB, 44739 s at 48000 Hz, and the sound has 44739 s");
+}
 
-  const std::int64_t n = most + 1;
-  const std::string large = wav_header({.n_samples = n, .rate_Hz = 48000, .full_scale = 3.0});
-  EXPECT_EQ(large.substr(0, 4), "RF64");
-  EXPECT_EQ(number(large, 4, 4), 0xFFFFFFFFU);
-  EXPECT_EQ(large.substr(8, 8), "WAVEds64");  // the first chunk
-  EXPECT_EQ(number(large, 16, 4), 28u);
-  const auto n_bytes = 2 * static_cast<std::uint64_t>(n);
-  EXPECT_EQ(number_64(large, 20), large.size() - 8 + n_bytes);
-  EXPECT_EQ(number_64(large, 28), n_bytes);
-  EXPECT_EQ(number_64(large, 36), static_cast<std::uint64_t>(n));
-  EXPECT_EQ(number(large, 44, 4), 0u);
-  EXPECT_EQ(large.substr(48, 4), "fmt ");
-  const std::size_t data = large.find("data");
-  EXPECT_EQ(number(large, data + 4, 4), 0xFFFFFFFFU);
-  EXPECT_EQ(data + 8, large.size());
+TEST(WavRecording, IsTheFileOfAllItsSamples)
+{
+  const ScratchFolder folder;
+  std::vector<float> x(300000);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::sin(0.1F * float(i)) * float(i);
+  write_wav(folder.file("whole.wav"), x, 48000);
+  {
+    WavRecording sound(folder.file("a.wav"), 48000);
+    for (std::size_t i = 0; i < x.size(); i += 1000)
+      sound.add({x.begin() + std::ptrdiff_t(i), x.begin() + std::ptrdiff_t(i) + 1000});
+    EXPECT_FALSE(std::filesystem::exists(folder.file("a.wav")));
+    sound.finish();
+    EXPECT_NEAR(sound.full_scale().value_or(0.0), 3e5,
+                500.0);  // samples of a sine are up to 0.05 from its peak
+    WavRecording silence(folder.file("silence.wav"), 48000);
+    silence.finish();
+    EXPECT_EQ(silence.full_scale(), 1.0);
+    WavRecording unfinished(folder.file("whole.wav"), 48000);
+    unfinished.add(x);
+  }
+  EXPECT_TRUE(bytes_of(folder.file("a.wav")) == bytes_of(folder.file("whole.wav")));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3);
 }
 
 TEST(WavFile, FollowsNoLinkThatWaitsUnderATemporaryName)

@@ -65,8 +65,6 @@ Transient transient()
           .windows = {},
           .band = {},
           .history = history,
-          .snapshots = {history.t, MatrixXd::Constant(2, 4, 1e-3), MatrixXd::Constant(2, 4, 1e-2),
-                        series(4)},
           .tail = history,
           .tail_a = {},
           .N_min = 0.0,

@@ -10,6 +10,8 @@
 #include "squeal/brake/linear_contact.hpp"
 #include "squeal/brake_options.hpp"
 #include "squeal/models/flexible_disc.hpp"
+#include "squeal/transient/integrator_choice.hpp"
+#include "squeal/transient/transient_steps.hpp"
 
 namespace chladni::squeal::test {
 
@@ -121,6 +123,25 @@ inline SquealOptions reference_options(ContactLaw law = ContactLaw::bilateral)
   options.contact = law;
   options.pads = {{.angle = 0.0, .stiffness = 6e6, .damping = 0.0, .preload = 2000.0}};
   return options;
+}
+
+/// The first n modal states of `transient`, at the samples of its tail and of a whole history.
+/// @param step  Transient::step
+inline std::vector<ModalState> states_of(const FlexibleDisc& brake, const TransientCase& run,
+                                         double step, std::size_t n)
+{
+  const Disc& disc = brake.disc();
+  const SquealOptions& options = brake.options();
+  const std::optional<InertialDisc>& inertial = brake.find_inertial();
+  const auto steps =
+      transient_steps(disc, options, run, choose_integrator(disc, inertial, options, run), step,
+                      transient_start(disc, inertial, run, options.pads.front().angle));
+  std::vector<ModalState> states;
+  for (std::size_t i = 0; i < n; ++i) {
+    steps->next();
+    states.push_back(steps->state());
+  }
+  return states;
 }
 
 }  // namespace chladni::squeal::test
