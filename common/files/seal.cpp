@@ -177,9 +177,8 @@ bool check_seal(const std::string& path)
         path));
   }
   const std::uint64_t length = std::filesystem::file_size(path);
-  if (length != sealed_length(seal)) {
+  if (length != sealed_length(seal))
     refuse(path, fmt::format("it has {} bytes and had {}", length, sealed_length(seal)));
-  }
   if (seal != seal_text(length, digest_of(file)))
     refuse(path, "its bytes are not those that were sealed");
   return true;

@@ -123,9 +123,10 @@ void WavRecording::add(const std::vector<float>& x)
 void WavRecording::flush()
 {
   if (!file_) {
-    if (files::is_stream(path_))
+    if (files::is_stream(path_)) {
       throw Error(
           fmt::format("{}: is no ordinary file, and the sound is scaled in it", path_.string()));
+    }
     file_.emplace(path_.string());
     file_->write(std::string(waiting_from, '\0'));
   }
