@@ -111,9 +111,24 @@ std::optional<squeal::PadGrid> read_grid(const Table& pad, RingsOf of)
   return grid;
 }
 
-/// The radius of a round face.
+/// Whether the face is a point by name.
+bool read_is_point(const Table& pad)
+{
+  if (!pad.has("face")) return false;
+  if (pad.has("grid"))
+    pad.refuse("face", "is that of `grid`, which gives its points; leave out one of them");
+  const bool is_point = pad.text("face") == "point";
+  if (is_point && pad.has("radius"))
+    pad.refuse("face", "is a point, and `radius` is that of a round face; leave out one of them");
+  if (!is_point && !pad.has("radius") && !pad.has("area"))
+    pad.refuse("face", "is round, but of unknown size: give `radius` or `area`");
+  return is_point;
+}
+
+/// The radius of a round face, 0 of a point by name.
 std::optional<double> read_patch(const Table& pad)
 {
+  if (read_is_point(pad)) return 0.0;
   if (!pad.has("radius")) return std::nullopt;
   if (pad.has("grid")) {
     pad.refuse(

@@ -72,10 +72,19 @@ struct PadPair {
   std::optional<Caliper> caliper = {};  ///< needs a body with an axial suspension
   std::optional<Shim> shim = {};
   std::optional<FrictionLaw> friction = {};  ///< absent: the friction of the brake
-  std::optional<double> area = {};           ///< area of each pad's face for its pressure, m^2
-  /// Radius of the round patch of each pad's face, m; absent: a point. Not with a grid.
+  /// Area of each pad's face for its pressure, m^2, and of its patch without `radius` and `grid`.
+  std::optional<double> area = {};
+  /// Radius of the round patch of each pad's face, m; 0: a point, whatever the area. Not with a
+  /// grid.
   std::optional<double> radius = {};
 };
+
+/// Radius of the round patch that each pad of the pair touches, m: its own, or that of its area;
+/// 0 for a point.
+double patch_radius(const PadPair& pad);
+
+/// Whether the pads touch a point because nothing says how large they are.
+bool lacks_a_size(const PadPair& pad);
 
 /// Behaviour of a pad when the disc moves away from it.
 enum class ContactLaw {

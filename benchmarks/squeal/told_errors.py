@@ -30,13 +30,14 @@ DISCS = {
     "rim": (0.100, 0.165, 0.155, 0.018, 1.1e11, 0.27, 7150.0, 5000.0),
     "wide": (0.020, 0.160, 0.100, 0.014, 1.1e11, 0.27, 7150.0, 3500.0),
     "aluminium": (0.040, 0.140, 0.110, 0.016, 7.0e10, 0.33, 2700.0, 5500.0),
-    "bicycle": (0.055, 0.080, 0.072, 0.004, 2.0e11, 0.29, 7900.0, 5000.0),
+    "bicycle": (0.055, 0.080, 0.072, 0.004, 2.0e11, 0.29, 7900.0, 8000.0),
     "lorry": (0.090, 0.215, 0.180, 0.040, 1.05e11, 0.26, 7100.0, 5000.0),
 }
 MESHES = ((2, 0.3), (2, 0.2), (3, 0.4), (3, 0.28))  # order, size of the elements over the outer radius
-# friction, stiffness of a pad in N/m, angles of the pads
-BRAKES = {"one pad": (0.4, 2e7, (10.0,)), "two pads": (0.4, 2e7, (10.0, 100.0)),
-          "soft pad": (0.6, 4e6, (10.0,)), "two stiff pads": (0.3, 6e7, (10.0, 145.0))}
+# friction, stiffness of a pad in N/m, angles of the pads, and what each of them touches
+POINT, ROUND = 'face = "point"', "radius = 0.012"
+BRAKES = {"one pad": (0.4, 2e7, (10.0,), POINT), "two pads": (0.4, 2e7, (10.0, 100.0), ROUND),
+          "soft pad": (0.6, 4e6, (10.0,), ROUND), "two stiff pads": (0.3, 6e7, (10.0, 145.0), POINT)}
 
 
 def size_of(disc, part):
@@ -47,8 +48,8 @@ def size_of(disc, part):
 
 def scene(disc, order, size, brake, tells):
     inner, outer, radius, thickness, young, poisson, density, up_to_Hz = DISCS[disc]
-    friction, stiffness, angles = BRAKES[brake]
-    pads = ", ".join(f"{{ angle_deg = {angle}, stiffness = {stiffness}, damping = 0.0, preload = 3000.0 }}" for angle in angles)
+    friction, stiffness, angles, face = BRAKES[brake]
+    pads = ", ".join(f"{{ angle_deg = {angle}, stiffness = {stiffness}, damping = 0.0, preload = 3000.0, {face} }}" for angle in angles)
     return f"""
 name = "disc"
 [mesh]
@@ -188,6 +189,11 @@ def page(result):
         some = [row for row in rows if row["order"] == order and row["size"] == size_of(row["disc"], part)]
         if some:
             lines.append(f"| order {order}, {part:g} of the outer radius | {spread(some)} |")
+    lines += ["", "| pads | numbers | least | median | nine of ten below | largest | between 1 and 10 |", "| --- | --- | --- | --- | --- | --- | --- |"]
+    for face, said in ((POINT, "touch a point"), (ROUND, "round, of 12 mm radius")):
+        some = [row for row in rows if BRAKES[row["brake"]][3] == face]
+        if some:
+            lines.append(f"| {said} | {spread(some)} |")
     return "\n".join(lines + [""])
 
 

@@ -158,6 +158,31 @@ std::shared_ptr<const squeal::FlexibleDisc> complete_disc(const mbs_export::Moda
       squeal::make_disc(body, squeal::ring_choice(options), {}), options);
 }
 
+/// Pads whose size nobody gave, where errors are told.
+std::optional<std::string> note_of_points(const squeal::FlexibleDisc& brake)
+{
+  if (brake.disc().errors.mesh.size() == 0) return std::nullopt;
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < brake.options().pads.size(); ++i)
+    if (squeal::lacks_a_size(brake.options().pads[i])) numbers.push_back(i + 1);
+  if (numbers.empty()) return std::nullopt;
+  return fmt::format(
+      "squeal.pads: number {} gives no size and touches the disc at a point, whose displacement no "
+      "mesh has right: growth rates and critical speeds go on changing with finer elements, as "
+      "their errors tell; give `radius` or `area`, or face = \"point\" if a point is meant",
+      fmt::join(numbers, ", "));
+}
+
+/// A disc whose stability is that of periodic equations.
+std::optional<std::string> note_of_asymmetry(const squeal::FlexibleDisc& brake)
+{
+  if (brake.is_autonomous() || brake.options().keeps_asymmetry) return std::nullopt;
+  return fmt::format(
+      "the disc is not axisymmetric: {}; its stability is told by Hill's method over a rotation, "
+      "without errors of the body, and takes long with many modes",
+      squeal::asymmetry(brake.disc()).value_or("as it is"));
+}
+
 /// What the mean over the circumference takes from pairs whose modes decay differently.
 std::optional<std::string> note_of_damping(const squeal::FlexibleDisc& brake)
 {
@@ -188,7 +213,10 @@ SquealCase squeal_case(const scene::Scene& scene, const std::optional<mbs_export
   std::vector<std::string> notes = squeal::notes_of(disc);
   auto brake = std::make_unique<squeal::FlexibleDisc>(std::move(disc), options,
                                                       complete_disc(*body, options));
-  if (const auto note = note_of_damping(*brake)) notes.push_back(*note);
+  for (const auto& note :
+       {note_of_damping(*brake), note_of_points(*brake), note_of_asymmetry(*brake),
+        squeal::note_of_lacking_errors(brake->disc(), *body, options.modes)})
+    if (note) notes.push_back(*note);
   add_note_of_stiffening({&*body, 1}, notes);
   return {.brake = std::move(brake), .notes = std::move(notes)};
 }

@@ -189,20 +189,29 @@ bool are_axisymmetric(const Disc& all, const std::vector<int>& modes)
   return !asymmetry(disc);
 }
 
+/// Whether the body has what its reduction has, also where that knows no mode.
+bool has_all_modes(const ModalBody& body)
+{
+  const int n_all = body.preparation.n_constrained_modes;
+  return n_all > 0 && body.n_modes() >= n_all;
+}
+
 /// Modes beyond `end` follow the pads without inertia where the disc would not be axisymmetric with
 /// them, and is without: a reduction has there what its shapes make of others. Those whose partners
-/// are missing do first.
-void let_unpaired_follow(const Disc& all, double end, ModeParts& parts)
+/// are missing do first. Where the disc is not axisymmetric without them either, all modes of a
+/// reduction would meet in equations over the rotation, whose size they set: those beyond follow.
+void let_unpaired_follow(const Disc& all, const ModalBody& body, ModeParts& parts)
 {
+  const double end = end_of_known(all, body);
   std::vector<int> within, beyond;
   for (const int mode : parts.dynamic) (all.omega[mode] <= end ? within : beyond).push_back(mode);
-  if (within.empty() || beyond.empty() || are_axisymmetric(all, parts.dynamic) ||
-      !are_axisymmetric(all, within))
-    return;
+  if (within.empty() || beyond.empty() || are_axisymmetric(all, parts.dynamic)) return;
+  const bool is_axisymmetric = are_axisymmetric(all, within);
+  if (!is_axisymmetric && !has_all_modes(body)) return;
   std::vector<int> alone = unpaired(all, parts.dynamic), paired;
   std::erase_if(alone, [&](int mode) { return all.omega[mode] <= end; });
   std::ranges::set_difference(parts.dynamic, alone, std::back_inserter(paired));
-  const bool is_enough = are_axisymmetric(all, paired);
+  const bool is_enough = is_axisymmetric && are_axisymmetric(all, paired);
   parts.alone = is_enough ? std::move(alone) : std::move(beyond);
   parts.dynamic = is_enough ? std::move(paired) : std::move(within);
   parts.quasi_static.insert(parts.quasi_static.end(), parts.alone.begin(), parts.alone.end());
@@ -240,7 +249,7 @@ std::vector<std::string> notes_of(const Disc& disc)
   if (!disc.alone.empty()) {
     notes.push_back(fmt::format(
         "{} of these, beyond the frequencies that the reduction knows the errors of, lack the "
-        "partners that modes of an axisymmetric disc have: they are none of its modes",
+        "partner or the harmonic shape of a mode of the disc: they are none of its modes",
         disc.alone.size()));
   }
   if (!disc.still.empty()) {
@@ -257,6 +266,30 @@ std::vector<std::string> notes_of(const Disc& disc)
                     disc.alternating.size(), fmt::join(disc.alternating, ", ")));
   }
   return notes;
+}
+
+std::optional<std::string> note_of_lacking_errors(const Disc& disc, const ModalBody& body,
+                                                  const ModeChoice& choice)
+{
+  if (body.certificate.mesh_errors.size() == 0) return std::nullopt;
+  if (disc.errors.mesh.size() == 0) {
+    return fmt::format(
+        "growth rates and critical speeds come without the errors of the mesh: the body knows them "
+        "as held at [\"{}\"], and is held at [\"{}\"]",
+        fmt::join(body.certificate.fixed, "\", \""), fmt::join(body.fixed, "\", \""));
+  }
+  if (disc.errors.mesh_compliances.size() > 0) return std::nullopt;
+  const std::string why =
+      choice.list || choice.nodal_diameters ? "use_modes leaves out the modes that have it"
+      : !has_static_compliance(body)
+          ? "the body keeps no shapes for static forces, as keep = { tolerance = ... } of [body] "
+            "adds them"
+          : "the body does not know it: that is computed for a held body with a table [squeal], up "
+            "to 20,000 DOFs, or 200,000 of elements below order 4";
+  return fmt::format(
+      "the errors of growth rates and critical speeds lack what finer elements add to the "
+      "compliance under the pads, since {}",
+      why);
 }
 
 RingChoice ring_choice(const SquealOptions& options)
@@ -296,7 +329,7 @@ Disc make_disc(const ModalBody& body, const RingChoice& rings, const ModeChoice&
   }
   ModeParts parts = mode_parts(all, body, choice);
   const bool has_choice = choice.list || choice.nodal_diameters;
-  if (!has_choice) let_unpaired_follow(all, end_of_known(all, body), parts);
+  if (!has_choice) let_unpaired_follow(all, body, parts);
   Disc disc = with_modes(all, parts.dynamic);
   if (has_choice) disc.errors.mesh_compliances = {};  // of what is left out
   disc.range = range_of(body);
@@ -473,6 +506,13 @@ ModeParts parts_of_all(const Disc& disc, const ModalBody& body, const ModeChoice
         "each mode that moves the ring changes its sign from node to node, which shows one mode of "
         "such a pair only; reduce the disc with more nodes on the ring");
   }
+  if (parts.dynamic.empty() && !choice.quasi_static_above) {
+    throw Error(
+        fmt::format("the body was made for responses up to {:.6g} Hz, below which no mode of the "
+                    "disc moves the ring: the lowest one has {:.6g} Hz; raise up_to_Hz of [reduce] "
+                    "and of keep in [body] well above it",
+                    limit / (2.0 * pi), disc.omega[parts.quasi_static.front()] / (2.0 * pi)));
+  }
   if (parts.dynamic.empty()) {
     throw Error(
         fmt::format("quasi_static_above_Hz: {:.6g} Hz leaves no mode with inertia; the lowest mode "
@@ -588,9 +628,8 @@ double end_of_known(const Disc& disc, const ModalBody& body)
 {
   constexpr double same = 1e-3;
   if (disc.errors.range > 0.0) return (1.0 + same) * disc.errors.range;
-  const int n_all = body.preparation.n_constrained_modes;
-  const bool has_all = n_all > 0 && body.n_modes() >= n_all;
-  return has_all ? 0.5 * disc.omega.maxCoeff() : std::numeric_limits<double>::infinity();
+  return has_all_modes(body) ? 0.5 * disc.omega.maxCoeff()
+                             : std::numeric_limits<double>::infinity();
 }
 
 double range_of(const ModalBody& body)
@@ -600,8 +639,8 @@ double range_of(const ModalBody& body)
     double& highest = is_of_disc(body, i) ? range : others;
     highest = std::max(highest, body.omega[i]);
   }
-  if (others == 0.0 || range == 0.0) return std::numeric_limits<double>::infinity();
-  return body.selection ? body.selection->Omega_max : range;
+  if (others > 0.0 && body.selection) return body.selection->Omega_max;
+  return others > 0.0 && range > 0.0 ? range : std::numeric_limits<double>::infinity();
 }
 
 ModeParts mode_parts(const Disc& disc, const ModalBody& body, const ModeChoice& choice)

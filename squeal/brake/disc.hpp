@@ -93,7 +93,8 @@ struct Disc {
 /// reduction that was made for responses. Such modes represent the static response of all modes
 /// beyond the range, at frequencies that the disc does not have. The same holds for modes beyond
 /// the certified frequencies (in a body of all modes without them, beyond half of the highest one)
-/// if the disc is axisymmetric without them alone. Other modes keep their inertia, and a mode of
+/// if the disc is axisymmetric without them alone, and with a body of all modes where it is not
+/// axisymmetric at all. Other modes keep their inertia, and a mode of
 /// unknown kind counts as one of the disc.
 /// @throws chladni::Error for an unknown ring, two rings with one name, a mode number that is out
 ///         of range or repeated, a number of nodal diameters without a pair of modes, rigid-body
@@ -107,6 +108,14 @@ Disc disc_on_ring(const mbs_export::ModalBody& body, const std::string& ring,
 /// Notes on modes that do not take part in the motion, one sentence each, such as "60 modes above
 /// 17048 Hz follow the pads without inertia"; empty when all take part.
 std::vector<std::string> notes_of(const Disc& disc);
+
+/// What the errors of growth rates and critical speeds lack although the body knows errors by the
+/// mesh, and why; absent where they lack nothing, and where the body knows none.
+/// @param disc    made of `body` by make_disc
+/// @param choice  of its modes
+std::optional<std::string> note_of_lacking_errors(const Disc& disc,
+                                                  const mbs_export::ModalBody& body,
+                                                  const ModeChoice& choice);
 
 /// The rings of the study, followed by those that only the grids of pads name.
 RingChoice ring_choice(const SquealOptions& options);
@@ -131,7 +140,8 @@ struct ModeParts {
 };
 
 /// Upper end of the frequency range for which a body with interface modes was made, rad/s: the
-/// limit of its tolerance, or its highest other mode. Infinite for bodies without interface modes.
+/// limit of its tolerance, or its highest other mode. Infinite for bodies without interface modes,
+/// and without other modes where there is no tolerance.
 double range_of(const mbs_export::ModalBody& body);
 
 /// The end of what a reduction knows of its modes, rad/s: the certified frequencies or, of a body

@@ -89,7 +89,7 @@ void add_points(PadSystem& system, const SquealOptions& options, std::size_t i,
       const double turn = grid.sector * ((k + 0.5) / grid.points - 0.5);
       system.points.push_back({.pad = i,
                                .angle = pad.angle + turn,
-                               .patch = pad.radius.value_or(0.0) / rings[pair.rings[0]].radius,
+                               .patch = patch_radius(pad) / rings[pair.rings[0]].radius,
                                .rings = pair.rings,
                                .contact = part_of(pad_contact(options, pad, pair.faces), n),
                                .upper = {},
@@ -349,6 +349,18 @@ Suspension in_series(const Suspension& spring, const Shim& shim)
   const Complex k_s = shim.stiffness * Complex(1.0, shim.loss_factor);
   const Complex both = k * k_s / (k + k_s);
   return {.stiffness = both.real(), .damping = both.imag() / omega};
+}
+
+double patch_radius(const PadPair& pad)
+{
+  if (pad.grid) return 0.0;
+  if (pad.radius) return *pad.radius;
+  return pad.area ? std::sqrt(*pad.area / std::numbers::pi) : 0.0;
+}
+
+bool lacks_a_size(const PadPair& pad)
+{
+  return !pad.grid && !pad.radius && !pad.area;
 }
 
 PadContact pad_contact(const SquealOptions& options, const PadPair& pad,

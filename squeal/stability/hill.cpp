@@ -1,6 +1,7 @@
 #include "squeal/stability/hill.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <thread>
 #include <vector>
 
 #include "common/eigen_every.hpp"
@@ -29,6 +31,27 @@ constexpr Eigen::Index n_samples_max = 1024;
 constexpr double left_out = 0.1;
 /// Of a period, for the disc that stands; no harmonic below it repeats at these angles.
 constexpr int n_frozen_angles = 24;
+
+/// Groups, their corrections and the harmonics of both hold so many bytes for each entry of the
+/// coupling matrix at each angle, at most.
+constexpr double bytes_an_entry = 48.0;
+
+/// Refuses, before it is taken, what would fill the memory of the machine.
+/// @param m  states
+/// @param N  angles
+void require_room(double speed, Index m, Index N)
+{
+  const double GiB = double(1 << 30);
+  const double n_threads = std::max(1U, std::thread::hardware_concurrency());
+  const double needed = bytes_an_entry * double(m) * double(m) * double(N) * n_threads / GiB;
+  const double machine = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE)) / GiB;
+  if (needed <= machine) return;
+  throw Error(
+      fmt::format("stability over a rotation at {:.6g} rad/s: {} modes at {} angles of the disc "
+                  "need {:.3g} GiB, and the machine has {:.3g} GiB; the disc is not axisymmetric: "
+                  "mesh it so, or keep fewer modes in [body]",
+                  speed, m / 2, N, needed, machine));
+}
 
 /// Of all groups, and what the sum of their growth rates is off the trace.
 HillExponents exponents_of(const std::vector<NearGroup>& groups, const TurningModes& modes)
@@ -76,6 +99,7 @@ HillExponents Hill::exponents(double speed) const
   const int nu = std::max(1, harmonics.nu);
   const Eigen::Index highest = harmonics.highest / nu;
   for (Eigen::Index N = power_of_two(2 * highest + 1); N <= n_samples_max; N *= 2) {
+    require_room(speed, harmonics.A_0.rows(), N);
     const TurningModes modes = turning_modes(harmonics, N);
     const std::vector<NearGroup> groups = near_groups(modes, tolerance_);
     double error = 0.0;
@@ -115,6 +139,8 @@ using Complex = std::complex<double>;
 /// equations of the group leave open.
 constexpr double growth_error = 1e-8, part_of_error = 0.1;
 constexpr Index n_steps_max = Index{1} << 18;
+/// Of the matrices of all steps of a group together: 2 GiB, and hours.
+constexpr double entries_max = double(1 << 27);
 /// Halvings that do not lessen the change before there are no more.
 constexpr int stuck_max = 2;
 /// Error over the largest of these changes.
@@ -269,13 +295,28 @@ class Orbit {
   std::vector<Square<G>> steps_;
 };
 
+/// Of a period, for the equations of a group of g states.
+/// @throws chladni::Error where they would take hours and all memory
+Index first_steps(const Shifted& F, Index g, double step)
+{
+  const double turns = 2.0 * pi * samples_of(F.c).cwiseAbs().colwise().maxCoeff().maxCoeff();
+  const double least = std::max(4.0 * double(F.c.cols()), 4.0 * turns);
+  if (least * double(g) * double(g) <= entries_max)
+    return power_of_two(static_cast<Index>(least) + 1);
+  throw Error(
+      fmt::format("stability over a rotation: at {:.6g} rad/s (speed times the symmetry of the "
+                  "disc) {} states act on each other so that none can be told alone, and their "
+                  "equations need {:.1e} steps a period; the disc is not axisymmetric: mesh it so, "
+                  "or keep fewer modes in [body]",
+                  step, g, least));
+}
+
 template <int G>
 GroupExponents integrated(const NearGroup& group, double step)
 {
   const auto g = static_cast<Index>(group.states.size());
   const Shifted F = shifted(group, step);
-  const double turns = 2.0 * pi * samples_of(F.c).cwiseAbs().colwise().maxCoeff().maxCoeff();
-  Index M = power_of_two(std::max(4 * F.c.cols(), static_cast<Index>(4.0 * turns)));
+  Index M = first_steps(F, g, step);
   Flag flag = Orbit<G>(F.c, g, M).motions();
   double change = std::numeric_limits<double>::infinity(), unsettled = 0.0;
   // Each half of a step errs a 64th: what does not fall is rounding, or exponents so near each
@@ -283,7 +324,8 @@ GroupExponents integrated(const NearGroup& group, double step)
   // are differences of two errors of one size, small by chance.
   int stuck = 0;
   const double enough = std::max(growth_error, part_of_error * group.error);
-  while (change > enough && M < n_steps_max && stuck < stuck_max) {
+  const double most = std::min(double(n_steps_max), entries_max / double(g * g));
+  while (change > enough && double(M) < most && stuck < stuck_max) {
     M *= 2;
     const Flag finer = Orbit<G>(F.c, g, M).motions();
     const double last = change;

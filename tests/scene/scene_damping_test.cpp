@@ -150,6 +150,26 @@ TEST(FrictionOfAPad, IsItsOwn)
   EXPECT_EQ(scene.squeal->friction.kinetic, 0.6);
 }
 
+TEST(FaceOfAPad, IsRoundOrAPointByName)
+{
+  const auto with = [](const std::string& face) {
+    return replaced(disc, "preload = 2000.0", "preload = 2000.0, " + face);
+  };
+  EXPECT_FALSE(scene_of(disc).squeal->pads[0].radius);
+  EXPECT_EQ(scene_of(with("radius = 0.02")).squeal->pads[0].radius, 0.02);
+  const squeal::PadPair point = scene_of(with("area = 1e-3, face = \"point\"")).squeal->pads[0];
+  EXPECT_EQ(point.radius, 0.0);
+  EXPECT_EQ(point.area, 1e-3);
+  EXPECT_FALSE(scene_of(with("area = 1e-3, face = \"round\"")).squeal->pads[0].radius);
+  const auto expect = [&](const std::string& face, const std::string& part) {
+    EXPECT_NE(error_of(with(face)).find(part), std::string::npos) << error_of(with(face));
+  };
+  expect("face = \"square\"", "must be one of \"round\", \"point\"");
+  expect("face = \"round\"", "give `radius` or `area`");
+  expect("radius = 0.02, face = \"point\"", "leave out one of them");
+  expect("grid = { sector_deg = 20.0, points = 2 }, face = \"point\"", "leave out one of them");
+}
+
 TEST(ShimOfAPad, IsBehindItsPlate)
 {
   const std::string shim =

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include "common/error.hpp"
 #include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
@@ -108,6 +111,28 @@ TEST(ContactPatch, IsTheSameForTheTurningDisc)
   }
 }
 
+TEST(ContactPatch, HasTheAreaOfTheFaceUnlessAPointIsMeant)
+{
+  PadPair pad = reference_options().pads.front();
+  EXPECT_EQ(patch_radius(pad), 0.0);
+  EXPECT_TRUE(lacks_a_size(pad));
+  pad.area = pi * 0.02 * 0.02;
+  EXPECT_DOUBLE_EQ(patch_radius(pad), 0.02);
+  EXPECT_FALSE(lacks_a_size(pad));
+  pad.radius = 0.03;
+  EXPECT_EQ(patch_radius(pad), 0.03);
+  SquealOptions options = reference_options();
+  options.pads.front().area = pi * 0.02 * 0.02;
+  EXPECT_DOUBLE_EQ(pad_system(options, ring_radius).points.front().patch, 0.02 / ring_radius);
+  pad.radius = 0.0;
+  EXPECT_EQ(patch_radius(pad), 0.0);
+  EXPECT_FALSE(lacks_a_size(pad));
+  pad = {.angle = 0.0, .stiffness = 1e6, .damping = 0.0, .preload = 1e3};
+  pad.area = 1e-3;
+  pad.grid = PadGrid{.sector = 0.3, .points = 3};
+  EXPECT_EQ(patch_radius(pad), 0.0);
+}
+
 /// Two pairs whose modes the mesh has without error, and what finer elements add at a point.
 mbs_export::ModalBody on_a_mesh(double growth_of_compliance)
 {
@@ -143,6 +168,25 @@ TEST(ErrorBudget, HoldsWhatFinerElementsAddToTheComplianceUnderAPad)
   const auto of_pair = growth_error_budget(FlexibleDisc(pair, options), speed,
                                            least_stable_of_the_pair(pair, options));
   EXPECT_EQ(of_pair.mesh.value(), 0.0);
+}
+
+TEST(ErrorBudget, SaysWhichErrorsItLacks)
+{
+  mbs_export::ModalBody body = on_a_mesh(1e-10);
+  const auto note = [&](const ModeChoice& choice = {}) {
+    return note_of_lacking_errors(disc_on_ring(body, "track", choice), body, choice).value_or("");
+  };
+  EXPECT_EQ(note(), "");
+  EXPECT_NE(note({.list = {{1, 2}}}).find("since use_modes leaves out"), std::string::npos);
+  body.preparation.n_constrained_modes = 100;
+  EXPECT_NE(note().find("keeps no shapes for static forces"), std::string::npos);
+  body.preparation.n_constrained_modes = 0;
+  body.certificate.mesh_compliances = {};
+  EXPECT_NE(note().find("or 200,000 of elements"), std::string::npos);
+  body.certificate.fixed = {"rim"};
+  EXPECT_NE(note().find("as held at [\"rim\"]"), std::string::npos);
+  body.certificate.mesh_errors = {};
+  EXPECT_EQ(note(), "");
 }
 
 TEST(ContactCompliance, OfModesFarAboveIsWhatTheyDo)
@@ -229,6 +273,22 @@ TEST(ContactCompliance, TakesTheInertiaOfShapesThatAReductionHasForResponses)
   // Held otherwise, the body has modes of which the certificate does not know.
   body.certificate.fixed = {"another support"};
   EXPECT_EQ(disc_on_ring(body, "track", {}).mode_numbers, (std::vector{1, 2, 5, 6}));
+}
+
+TEST(ContactCompliance, NeedsAModeOfTheDiscWithinTheRange)
+{
+  mbs_export::ModalBody body = body_with_a_pair_beyond_its_range();
+  for (auto& kind : body.kinds) kind = mbs_export::ModeKind::interface;
+  EXPECT_EQ(disc_on_ring(body, "track", {}).mode_numbers, (std::vector{1, 2}));
+  body.selection->Omega_max *= 0.9;
+  try {
+    disc_on_ring(body, "track", {});
+    FAIL() << "there is no mode of the disc in the range";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("below which no mode of the disc moves the ring"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(ContactCompliance, CountsAModeOfUnknownKindAsOneOfTheDisc)

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+
+#include "common/error.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -44,6 +47,25 @@ TEST(GroupExponents, OfVectorsThatMeetAreWithinTheErrorThatIsTold)
     const double off = (found.lambda.real().array() + 1.0).abs().maxCoeff();
     EXPECT_LE(off, std::max(found.error, 1e-8)) << g;
     EXPECT_LT(found.error, 10.0 * step * std::pow(1e-16, 1.0 / double(g))) << g;
+  }
+}
+
+TEST(GroupExponents, AreRefusedWhereTheirStepsWouldFillTheMemory)
+{
+  // A hundred states of frequencies up to 100 kHz at 2 rad/s: a million steps of 100 x 100 numbers.
+  constexpr Eigen::Index g = 100, N = 8;
+  AngleSamples F = AngleSamples::Zero(g * g, N);
+  NearGroup group{{}, true, F, 1, 0.0};
+  for (Eigen::Index i = 0; i < g; ++i) {
+    group.states.push_back(i);
+    group.F(i * g + i, 0) = Complex(-1.0, 6e3 * double(i));
+  }
+  try {
+    group_exponents(group, 2.0);
+    FAIL() << "it takes hours";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("100 states act on each other"), std::string::npos)
+        << error.what();
   }
 }
 
