@@ -33,7 +33,7 @@ DISCS = {
     "bicycle": (0.055, 0.080, 0.072, 0.004, 2.0e11, 0.29, 7900.0, 8000.0),
     "lorry": (0.090, 0.215, 0.180, 0.040, 1.05e11, 0.26, 7100.0, 5000.0),
 }
-MESHES = ((2, 0.3), (2, 0.2), (3, 0.4), (3, 0.28))  # order, size of the elements over the outer radius
+MESHES = ((2, 0.3), (2, 0.2), (3, 0.4), (3, 0.28))  # order, size of the elements as size_of takes it
 # friction, stiffness of a pad in N/m, angles of the pads, and what each of them touches
 POINT, ROUND = 'face = "point"', "radius = 0.012"
 BRAKES = {"one pad": (0.4, 2e7, (10.0,), POINT), "two pads": (0.4, 2e7, (10.0, 100.0), ROUND),
@@ -41,9 +41,9 @@ BRAKES = {"one pad": (0.4, 2e7, (10.0,), POINT), "two pads": (0.4, 2e7, (10.0, 1
 
 
 def size_of(disc, part):
-    """Of a part of the outer radius; an element at least fits into the width."""
+    """Of a part of the outer radius or, on a narrow disc, of twice its width."""
     inner, outer = DISCS[disc][:2]
-    return min(part * outer, 0.9 * (outer - inner))
+    return part * min(outer, 2.0 * (outer - inner))
 
 
 def scene(disc, order, size, brake, tells):

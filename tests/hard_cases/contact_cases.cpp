@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/eigen_every.hpp"
 #include "hard_case.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "tests/references/squeal/analytic_body.hpp"
@@ -12,6 +13,7 @@
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/friction.hpp"
 #include "squeal/stability/eigenvalues.hpp"
+#include "squeal/stability/error_budget.hpp"
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/transient/transient.hpp"
 #include "tests/squeal/source_disc.hpp"
@@ -34,6 +36,53 @@ double critical_of(const std::vector<PlatePair>& pairs, const SquealOptions& opt
   const auto found = critical_speed(stability_over_speed(
       at_speeds(inertial_disc(disc_of(pairs)), options), options.study.speeds));
   return found ? found->speed / pi : std::nan("");
+}
+
+/// The body with five of the 60 nodes of its ring.
+mbs_export::ModalBody with_five_nodes(mbs_export::ModalBody body)
+{
+  mbs_export::ContactRing& ring = body.rings[0];
+  const auto chosen = Eigen::seqN(0, 5, 12);
+  ring.angles = Eigen::VectorXd(ring.angles(chosen));
+  for (Eigen::MatrixXd* shapes : {&ring.W, &ring.W_r, &ring.W_t})
+    *shapes = Eigen::MatrixXd((*shapes)(chosen, every));
+  return body;
+}
+
+/// What a finer mesh does to the growth of a pad, and the error told of it, 1/s.
+struct OfAFinerMesh {
+  double found, told;
+};
+
+/// With elements of a quarter of the size, two halvings that add 1e-10 m/N each to the compliance
+/// at a point of the ring, and as much to each of its harmonics.
+/// @param radius  of the pads, m; 0: a point
+OfAFinerMesh on_a_finer_mesh(double radius)
+{
+  constexpr double growth = 1e-10, halvings = 2.0, speed = 6.0 * pi;
+  mbs_export::ModalBody body = analytic_body({kirchhoff_3(), kirchhoff_4()});
+  const Eigen::Index n = body.n_modes();
+  body.certificate = {
+      .fixed = body.fixed,
+      .frequencies = body.omega,
+      .eta2 = Eigen::VectorXd::Zero(n),
+      .mesh_shape_errors = Eigen::MatrixXd::Zero(6, n),
+      .mesh_errors = Eigen::VectorXd::Zero(n),
+      .mesh_compliances = {.sets = {"track"}, .growth = Eigen::Vector3d(growth, 0.0, 0.0)}};
+  SquealOptions options = reference_options();
+  options.pads.front().radius = radius;
+  const Disc disc = disc_on_ring(body, "track", {});
+  InertialDisc finer = inertial_disc(disc);
+  const auto lambda = least_stable_eigenvalue(state_matrix(finer, options, speed));
+  const ErrorBudget budget = growth_error_budget(FlexibleDisc(disc, options), speed, lambda);
+  const auto n_d = static_cast<std::size_t>(finer.errors.n_harmonics);
+  finer.compliance.C.assign(n_d, Eigen::MatrixXcd::Zero(3, 3));
+  for (std::size_t d = 0; d < n_d; ++d) {
+    finer.compliance.C[d](0, 0) =
+        (d == 0 ? 1.0 : 2.0) * halvings * growth / (2.0 * double(n_d) - 1.0);
+  }
+  const auto found = least_stable_eigenvalue(state_matrix(finer, options, speed));
+  return {std::abs(found.real() - lambda.real()), budget.mesh.value()};
 }
 
 double cycle_frequency_error(ContactLaw law, double reference_Hz)
@@ -186,6 +235,27 @@ std::vector<HardCase> contact_cases()
          const Growth found =
              growth(FlexibleDisc(disc_of({kirchhoff_3()}), reference_options()), 4.28 * pi, 3.0);
          return std::abs(found.rate - growth_of(kirchhoff_3(), 4.28 * pi));
+       }},
+      {area, "ring of five nodes under modes of three and four diameters",
+       "four diameters look like one on five nodes", "words missing in the refusal", 0.0,
+       [] {
+         const auto body = with_five_nodes(analytic_body({kirchhoff_3(), kirchhoff_4()}));
+         return words_missing([&] { refuse_aliases(disc_on_ring(body, "track", {}), body); },
+                              {"ring \"track\" has 5 nodes", "10 nodes or more"});
+       }},
+      {area, "pad at a point of a mesh", "no mesh has the displacement of a force at a point",
+       "change of the growth by finer elements over the error told", 1.0,
+       [] {
+         const OfAFinerMesh point = on_a_finer_mesh(0.0);
+         return point.found / point.told;
+       }},
+      {area, "the same for a round pad of 30 mm", "the mesh counts for less than at a point",
+       "the larger one of its change over that of a point, and of a fifth of it over the error "
+       "told",
+       0.2,
+       [] {
+         const OfAFinerMesh round = on_a_finer_mesh(0.03), point = on_a_finer_mesh(0.0);
+         return std::max(0.2 * round.found / round.told, round.found / point.found);
        }},
       {area, "35 modes up to 16 kHz, undamped", "the critical pair is not the one that squeals",
        "error of the critical speed over pi, rad/s", 5e-5,

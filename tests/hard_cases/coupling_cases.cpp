@@ -1,6 +1,7 @@
 // Couplings in chains, conflicts and groups that do not determine a motion.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "hard_case.hpp"
@@ -119,6 +120,19 @@ double refusal_of_reference_without_stiffness()
                        {"\"tip\"", "element"});
 }
 
+/// Force of the rigid motions of a plate at a lever, and how far its reference node is from its
+/// place.
+double error_of_a_lever()
+{
+  const std::array<double, 3> at{1.0, -2.0, 0.5};
+  const std::vector<Coupling> lever{{.name = "lever", .group = "bottom", .at = at}};
+  const mesh::Mesh mesh = rectangle();
+  const DofMap dofs = map_of(mesh, lever);
+  const Eigen::Vector3d off = Eigen::Vector3d(dofs.position(dofs.reference_node("lever").value())) -
+                              Eigen::Vector3d(at.data());
+  return force_of_rigid_motions(mesh, plate_section, lever) + off.norm();
+}
+
 }  // namespace
 
 std::vector<HardCase> coupling_cases()
@@ -133,6 +147,8 @@ std::vector<HardCase> coupling_cases()
              rectangle(), plate_section,
              {link("top", "bottom"), {.name = "base", .group = "bottom"}});
        }},
+      {area, "reference node 2 m away from its nodes", "masses and springs act at a lever", rigid,
+       1e-13, error_of_a_lever},
       {area, "links in a circle", "each group follows the other", words, 0.0,
        [] {
          return refusal({link("top", "bottom"), link("bottom", "top")}, {"circle", "top"});

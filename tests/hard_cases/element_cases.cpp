@@ -1,13 +1,19 @@
 // Thin, warped, skew and distorted shells, on grids that are coarse for them.
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "hard_case.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "mesh/mesh_repair.hpp"
+#include "mesh/quality.hpp"
 #include "plate/elements/shell_element.hpp"
 #include "tests/plate/elements/patch.hpp"
 #include "tests/plate/elements/sample_elements.hpp"
 #include "tests/plate/obstacle_course.hpp"
+#include "tests/plate/square_plate.hpp"
 
 namespace chladni::hard_cases {
 namespace {
@@ -98,6 +104,68 @@ double needless_zero_modes()
   return most;
 }
 
+/// Triangles around a node in a square of side 2 m.
+mesh::Mesh fan(const std::array<double, 3>& middle)
+{
+  mesh::Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 2, 0},
+                    {1, 2, 0}, {0, 2, 0}, {0, 1, 0}, middle};
+  mesh::ElementBlock block{.shape = Shape::triangle,
+                           .order = 1,
+                           .nodes_per_element = 3,
+                           .numbers = {},
+                           .nodes = {},
+                           .group = std::vector<int>(8, 0)};
+  for (int i = 0; i < 8; ++i) {
+    block.numbers.push_back(i + 1);
+    block.nodes.insert(block.nodes.end(), {i, (i + 1) % 8, 8});
+  }
+  for (int i = 0; i < mesh.n_nodes(); ++i) mesh.node_numbers.push_back(i + 1);
+  mesh.groups.push_back({.name = "plate", .dimension = 2, .nodes = {}});
+  mesh.blocks.push_back(block);
+  return mesh;
+}
+
+/// Elements of a plate, each in two groups, that are more than it has.
+double elements_counted_twice()
+{
+  mesh::Mesh mesh = plate::testing::rectangle({.a = 2.0, .b = 1.0, .n_x = 4, .n_y = 3, .order = 2});
+  mesh.groups.push_back({.name = "all", .dimension = 2, .nodes = {}});
+  mesh::ElementBlock& block = mesh.blocks.front();
+  const int n = block.n_elements();
+  const std::vector<int> nodes = block.nodes;
+  block.nodes.insert(block.nodes.end(), nodes.begin(), nodes.end());
+  for (int i = 0; i < n; ++i) {
+    block.numbers.push_back(n + 1 + i);
+    block.group.push_back(int(mesh.groups.size()) - 1);
+  }
+  mesh::merge_doubled_elements(mesh, {});
+  return std::abs(double(mesh.blocks.front().n_elements() - n));
+}
+
+/// Relative error of the mass of a prism of twelve sides, radius 1 m, with four elements a side.
+double mass_of_a_prism(int order)
+{
+  constexpr double t = 0.02;
+  constexpr int n = 12;
+  std::vector<Surface> sides;
+  for (int i = 0; i < n; ++i) {
+    const auto corner = [=](int k) {
+      const double angle = 2.0 * std::numbers::pi * k / n;
+      return Eigen::Vector3d(std::cos(angle), 0.0, std::sin(angle));
+    };
+    sides.emplace_back([=](double u, double v) {
+      return Eigen::Vector3d((1.0 - u) * corner(i) + u * corner(i + 1) +
+                             v * Eigen::Vector3d::UnitY());
+    });
+  }
+  const ShellModel model = shell_model(sides, squares(order, 4), steel_like, t);
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(model.n_dofs());
+  for (Eigen::Index i = 0; i < r.size(); i += 6) r[i] = 1.0;
+  const double area = 2.0 * n * std::sin(std::numbers::pi / n);
+  return relative_error(r.dot(model.M * r), steel_like.density * t * area);
+}
+
 }  // namespace
 
 double relative_error(double value, double exact)
@@ -109,6 +177,19 @@ std::vector<HardCase> element_cases()
 {
   const std::string area = "elements";
   return {
+      {area, "triangles turned over in a flat fan", "each is a good element by itself",
+       "words missing in the refusal", 0.0,
+       [] {
+         return words_missing(
+             [] {
+               mesh::check_usable(fan({2.3, 2.1, 0.0}), "fan");
+             },
+             {"fan", "2 and 3"});
+       }},
+      {area, "each element in two groups", "a file has a line for each group",
+       "elements counted twice", 0.0, elements_counted_twice},
+      {area, "prism of twelve sides, order 3", "the thickness is measured along common normals",
+       "relative error of the mass", 1e-12, [] { return mass_of_a_prism(3); }},
       {area, "hemisphere with a hole, R/t = 250, order 1, distorted",
        "bending without stretching: membrane locking of warped elements", deflection, 0.03,
        [] { return relative_error(hemisphere_with_hole(squares(1, 16, 0.3)), 0.0935); }},
