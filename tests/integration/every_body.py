@@ -216,7 +216,32 @@ def check_few_nodes(programs):
         assert abs(speed / 6.683 - 1) < 5e-4, speed  # meshes differ with the ring
 
 
+def growing(found, up_to_Hz):
+    """Frequency and largest growth of the modes that grow below a frequency."""
+    return sorted((branch["worst_frequency_Hz"], branch["worst_growth_1_s"])
+                  for branch in found["stability_table"]["branches"]
+                  if branch["worst_growth_1_s"] > 0.0 and branch["worst_frequency_Hz"] < up_to_Hz)
+
+
+def check_default_body(programs):
+    """A body without `keep` has all that its reduction has, most of it far above the range. What it tells below half of the
+    range is what a body of the range tells."""
+    keep = "keep = { tolerance = 1e-4, up_to_Hz = 6000.0 }\n"
+    scene = changed(FEW_NODES, ("nodes = 5 ", "nodes = 36 "), ("keep = { up_to_Hz = 8500.0 }\n", keep),
+                    ('method = "mixed-interface"\nmodes = 60', "tolerance = 1e-4\nup_to_Hz = 6000.0"),
+                    ('"critical-speed"]', '"critical-speed", "stability"]'))
+    (chosen, _), (whole, said) = squeal(programs, scene), squeal(programs, changed(scene, (keep, "")))
+    assert "follow the pads without inertia" in said, said
+    off = abs(whole["critical_speed_rad_s"] / chosen["critical_speed_rad_s"] - 1)
+    rows = list(zip(growing(chosen, 3000.0), growing(whole, 3000.0), strict=True))
+    print("default body: critical speed off by", off, "growth", rows)
+    assert off < 5e-3 and len(rows) > 1, (off, rows)
+    for (f, growth), (f_whole, growth_whole) in rows:
+        assert abs(f_whole / f - 1) < 1e-4 and abs(growth_whole / growth - 1) < 5e-3, rows
+
+
 if __name__ == "__main__":
+    check_default_body(Path(sys.argv[1]))
     check_few_nodes(Path(sys.argv[1]))
     check_symmetric(Path(sys.argv[1]))
     check_contact_planes(Path(sys.argv[1]))
