@@ -14,19 +14,28 @@ PictureNodes picture_nodes(const mesh::Mesh& mesh, scene::PictureChoice choice)
   PictureNodes chosen;
   if (choice == scene::PictureChoice::none) return chosen;
   std::vector<int> index(mesh.n_nodes(), -1);
+  const auto place_of = [&](int node) {
+    if (index[node] < 0) {
+      index[node] = static_cast<int>(chosen.nodes.size());
+      chosen.nodes.push_back(node);
+    }
+    return index[node];
+  };
+  for (const mesh::FreeFace& face : mesh::free_faces(mesh)) {
+    const bool with_edges = choice != scene::PictureChoice::vertices;
+    const int order = mesh.blocks[face.block].order;
+    for (mesh::LatticeCell cell : mesh::face_cells(int(face.nodes.size()), order, with_edges)) {
+      for (int& corner : cell) corner = place_of(face.nodes[std::size_t(corner)]);
+      chosen.cells.push_back(cell);
+    }
+  }
   for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (mesh::is_solid(block.shape)) continue;
     const int step = choice == scene::PictureChoice::vertices ? block.order : 1;
     const std::vector<mesh::LatticeCell> cells = mesh::lattice_cells(block, step);
     for (int e = 0; e < block.n_elements(); ++e) {
       for (mesh::LatticeCell cell : cells) {
-        for (int& corner : cell) {
-          const int node = block.element_nodes(e)[corner];
-          if (index[node] < 0) {
-            index[node] = static_cast<int>(chosen.nodes.size());
-            chosen.nodes.push_back(node);
-          }
-          corner = index[node];
-        }
+        for (int& corner : cell) corner = place_of(block.element_nodes(e)[corner]);
         chosen.cells.push_back(cell);
       }
     }

@@ -164,6 +164,7 @@ plate::Structure structure_of(const scene::Scene& scene)
 {
   return {.shells = scene.sections,
           .beams = scene.beams,
+          .solids = scene.solids,
           .masses = scene.masses,
           .springs = scene.springs};
 }
@@ -180,8 +181,8 @@ mbs_export::Provenance provenance(const scene::Scene& scene, const SaidOfSolvers
   return {
       .scene = scene.text,
       .mesh_checksum = mesh::checksum(mesh),
-      .versions = fmt::format("Chladni {}; {}{}", report::version,
-                              reduce::library_versions(), maker(mesh)),
+      .versions =
+          fmt::format("Chladni {}; {}{}", report::version, reduce::library_versions(), maker(mesh)),
       .options = solvers.text,
       .ranks = n_ranks(),
       .mesh_file_digest = scene.mesh.file ? files::file_digest(*scene.mesh.file) : std::string()};

@@ -13,10 +13,10 @@
 #include "cases/sector_model.hpp"
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
-#include "reduce/cyclic/harmonic_coordinates.hpp"
-#include "reduce/cyclic/sector.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "linear/kernels/dense_matrices.hpp"
+#include "reduce/cyclic/harmonic_coordinates.hpp"
+#include "reduce/cyclic/sector.hpp"
 
 namespace chladni::cases {
 
@@ -93,6 +93,7 @@ plate::Structure structure_with(const scene::Scene& scene, const SectorParts& pa
 {
   return {.shells = parts.shells,
           .beams = scene.beams,
+          .solids = scene.solids,
           .masses = parts.masses,
           .springs = parts.springs};
 }

@@ -26,14 +26,6 @@ namespace {
 constexpr double largest_condition = 1e6;
 constexpr double largest_rounding = 1e-6;  // of the lowest eigenvalue
 
-double condition(const MatrixXd& Q_dd)
-{
-  if (Q_dd.size() == 0) return 1.0;
-  const VectorXd s = Eigen::JacobiSVD<MatrixXd>(Q_dd).singularValues();
-  const double smallest = s[s.size() - 1];
-  return smallest > 0.0 ? s[0] / smallest : std::numeric_limits<double>::infinity();
-}
-
 /// Displacements and rotations of a body much smaller or larger than 1 m differ in size, which
 /// costs no digits.
 MatrixXd rows_of_unit_length(MatrixXd Q)
@@ -123,7 +115,7 @@ ModeShift shift_by(const FreeModes& modes, const HeldDofs& held, const std::vect
   const MatrixXd Q_held = held.displacements(modes.Q_e);
   const std::vector<int> independent = complement(dependent, modes.omega.size());
   const MatrixXd Q_dd = Q_held(every, dependent);
-  const double directions = condition(rows_of_unit_length(Q_dd));
+  const double directions = linear::condition_number(rows_of_unit_length(Q_dd));
   if (!(directions <= largest_condition)) {
     throw BodyOptionError(
         "fixed",
@@ -142,7 +134,7 @@ ModeShift shift_by(const FreeModes& modes, const HeldDofs& held, const std::vect
                   .M_c = G.transpose() * G,
                   .R_c = {},
                   .dependent = dependent,
-                  .condition_Q_dd = condition(Q_dd),
+                  .condition_Q_dd = linear::condition_number(Q_dd),
                   .condition_directions = directions};
   shift.Q_c(dependent, every) = G;
   shift.Q_c(independent, every).setIdentity();
@@ -179,7 +171,8 @@ ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held)
   const MatrixXd Q_held = rows_of_unit_length(held.displacements(modes.Q_e));
   std::vector<int> dependent = rigid_then_elastic(modes, Q_held);
   const bool complete = Index(dependent.size()) == Q_held.rows();
-  if (!complete || condition(rows_of_unit_length(Q_held(every, dependent))) > largest_condition) {
+  if (!complete ||
+      linear::condition_number(rows_of_unit_length(Q_held(every, dependent))) > largest_condition) {
     dependent = independent_columns(Q_held * preference(modes).asDiagonal(), 1e-14);
     if (dependent.size() < held.dofs.size()) {
       throw BodyOptionError("fixed", fmt::format("mode shifting: the modes cannot hold {} apart "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <span>
 #include <utility>
@@ -92,11 +93,18 @@ std::vector<LatticeCell> lattice_cells(const ElementBlock& block, int step)
   return cells;
 }
 
+namespace {
+
+std::vector<std::vector<int>> edges_of_solid(const ElementBlock& block, int element);
+
+}  // namespace
+
 std::vector<std::vector<int>> edges_of(const ElementBlock& block, int element)
 {
   const int p = block.order;
   const std::span<const int> nodes = block.element_nodes(element);
   if (block.shape == Shape::line) return {{nodes.begin(), nodes.end()}};
+  if (is_solid(block.shape)) return edges_of_solid(block, element);
   const bool triangle = block.shape == Shape::triangle;
   const Lattice place(block);
   std::vector<std::vector<int>> edges(triangle ? 3 : 4);
@@ -107,6 +115,165 @@ std::vector<std::vector<int>> edges_of(const ElementBlock& block, int element)
     if (!triangle) edges[3].push_back(nodes[place(i, p)]);
   }
   return edges;
+}
+
+namespace {
+
+using CornerList = std::vector<std::vector<int>>;
+
+/// The corners of the edges of a solid, in the order of its nodes.
+const CornerList& solid_edges(Shape shape)
+{
+  static const CornerList tetrahedron{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+  static const CornerList wedge{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5},
+                                {5, 3}, {0, 3}, {1, 4}, {2, 5}};
+  static const CornerList hexahedron{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                     {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  return shape == Shape::tetrahedron ? tetrahedron : shape == Shape::wedge ? wedge : hexahedron;
+}
+
+const CornerList& corners_of_faces(Shape shape)
+{
+  static const CornerList tetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  static const CornerList wedge{{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
+  static const CornerList hexahedron{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                     {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  return shape == Shape::tetrahedron ? tetrahedron : shape == Shape::wedge ? wedge : hexahedron;
+}
+
+std::vector<std::array<double, 3>> solid_corners(Shape shape)
+{
+  if (shape == Shape::tetrahedron) return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  if (shape == Shape::wedge)
+    return {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+  return {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+          {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+}
+
+/// The places of the inner nodes of the edge from corner a to corner b.
+std::vector<int> inner_places(Shape shape, int order, int a, int b)
+{
+  const CornerList& edges = solid_edges(shape);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const bool is_along = edges[i][0] == a && edges[i][1] == b;
+    if (!is_along && !(edges[i][0] == b && edges[i][1] == a)) continue;
+    std::vector<int> places(std::size_t(order - 1));
+    std::iota(places.begin(), places.end(), n_corners(shape) + int(i) * (order - 1));
+    if (!is_along) std::ranges::reverse(places);
+    return places;
+  }
+  return {};
+}
+
+std::vector<std::vector<int>> edges_of_solid(const ElementBlock& block, int element)
+{
+  const std::span<const int> nodes = block.element_nodes(element);
+  std::vector<std::vector<int>> edges;
+  for (const std::vector<int>& ends : solid_edges(block.shape)) {
+    std::vector<int> edge{nodes[ends[0]]};
+    for (const int place : inner_places(block.shape, block.order, ends[0], ends[1]))
+      edge.push_back(nodes[place]);
+    edge.push_back(nodes[ends[1]]);
+    edges.push_back(std::move(edge));
+  }
+  return edges;
+}
+
+}  // namespace
+
+int n_corners(Shape shape)
+{
+  constexpr std::array corners{2, 3, 4, 4, 8, 6};
+  return corners[std::size_t(shape)];
+}
+
+std::vector<int> corner_places(const ElementBlock& block)
+{
+  const int p = block.order, last = block.nodes_per_element - 1;
+  if (block.shape == Shape::line) return {0, p};
+  if (block.shape == Shape::triangle) return {0, p, last};
+  if (block.shape == Shape::quadrilateral) return {0, p, last, last - p};
+  std::vector<int> places(std::size_t(n_corners(block.shape)));
+  std::iota(places.begin(), places.end(), 0);
+  return places;
+}
+
+std::vector<std::array<double, 3>> solid_nodes(Shape shape, int order)
+{
+  const std::vector<std::array<double, 3>> corners = solid_corners(shape);
+  std::vector<std::array<double, 3>> nodes = corners;
+  for (const std::vector<int>& ends : solid_edges(shape)) {
+    const auto &a = corners[std::size_t(ends[0])], &b = corners[std::size_t(ends[1])];
+    for (int i = 1; i < order; ++i) {
+      const double share = double(i) / order;
+      nodes.push_back({std::lerp(a[0], b[0], share), std::lerp(a[1], b[1], share),
+                       std::lerp(a[2], b[2], share)});
+    }
+  }
+  return nodes;
+}
+
+std::vector<std::vector<int>> solid_faces(Shape shape, int order)
+{
+  std::vector<std::vector<int>> faces = corners_of_faces(shape);
+  for (std::vector<int>& face : faces) {
+    const std::size_t n = face.size();
+    for (std::size_t i = 0; i < n; ++i)
+      for (const int place : inner_places(shape, order, face[i], face[(i + 1) % n]))
+        face.push_back(place);
+  }
+  return faces;
+}
+
+std::vector<FreeFace> free_faces(const Mesh& mesh)
+{
+  struct Seen {
+    FreeFace face;
+    std::array<int, 4> corners;  ///< ascending; -1 for the fourth of a triangle
+  };
+  std::vector<Seen> all;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const ElementBlock& block = mesh.blocks[b];
+    if (!is_solid(block.shape)) continue;
+    const std::vector<std::vector<int>> faces = solid_faces(block.shape, block.order);
+    const CornerList& corners = corners_of_faces(block.shape);
+    for (int e = 0; e < block.n_elements(); ++e) {
+      const std::span<const int> nodes = block.element_nodes(e);
+      for (std::size_t f = 0; f < faces.size(); ++f) {
+        Seen seen{.face = {.block = b, .element = e, .nodes = {}}, .corners = {-1, -1, -1, -1}};
+        for (const int place : faces[f]) seen.face.nodes.push_back(nodes[place]);
+        std::copy_n(seen.face.nodes.begin(), corners[f].size(), seen.corners.begin());
+        std::ranges::sort(seen.corners);
+        all.push_back(std::move(seen));
+      }
+    }
+  }
+  std::ranges::stable_sort(all, {}, &Seen::corners);
+  std::vector<FreeFace> free;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool is_shared = (i > 0 && all[i - 1].corners == all[i].corners) ||
+                           (i + 1 < all.size() && all[i + 1].corners == all[i].corners);
+    if (!is_shared) free.push_back(std::move(all[i].face));
+  }
+  return free;
+}
+
+std::vector<LatticeCell> face_cells(int n_nodes, int order, bool with_edge_nodes)
+{
+  const int n = n_nodes / order;  // corners
+  if (!with_edge_nodes || order == 1) return {{0, 1, 2, n - 1}};
+  const auto inner = [&](int edge, int i) { return n + edge * (order - 1) + i; };
+  std::vector<LatticeCell> cells;
+  std::vector<int> middle;
+  for (int c = 0; c < n; ++c) {
+    const int before = inner((c + n - 1) % n, order - 2), after = inner(c, 0);
+    cells.push_back({before, c, after, after});
+    for (int i = 0; i < order - 1; ++i) middle.push_back(inner(c, i));
+  }
+  const std::size_t size = middle.size();
+  for (std::size_t i = 1; i + 1 < size; i += 2)
+    cells.push_back({middle[0], middle[i], middle[i + 1], middle[std::min(i + 2, size - 1)]});
+  return cells;
 }
 
 std::vector<std::vector<int>> edges_in(const Mesh& mesh, const Group& group)

@@ -28,6 +28,36 @@ std::vector<std::vector<int>> edges_in(const Mesh& mesh, const Group& group);
 /// @param order  1 to 4
 std::vector<int> corners_first(Shape shape, int order);
 
+/// The parent coordinates (r, s, t) of the nodes of a solid: corners, then the inner nodes of each
+/// edge, from its first corner on; in [-1, 1]^3 of hexahedra, r, s, t >= 0 and r + s + t <= 1 of
+/// tetrahedra, a triangle r, s by t in [-1, 1] of wedges. The order is that of VTK up to order 2,
+/// and that of Abaqus.
+std::vector<std::array<double, 3>> solid_nodes(Shape shape, int order);
+
+/// The faces of a solid as places of its nodes: the corners counter-clockwise seen from outside,
+/// then the inner nodes of the edges in the same turn.
+std::vector<std::vector<int>> solid_faces(Shape shape, int order);
+
+/// The number of corners of an element, which come first in `corners_first` and in a solid.
+int n_corners(Shape shape);
+
+/// The places of the corners of an element, around it if it is a surface.
+std::vector<int> corner_places(const ElementBlock& block);
+
+/// A face of a solid that no other solid shares.
+struct FreeFace {
+  std::size_t block;
+  int element;
+  std::vector<int> nodes;  ///< as `solid_faces`
+};
+
+/// The skin of the solids of a mesh.
+std::vector<FreeFace> free_faces(const Mesh& mesh);
+
+/// The triangles and quadrilaterals that a face is drawn by, as places in `FreeFace::nodes`.
+/// @param with_edge_nodes  not only its corners
+std::vector<LatticeCell> face_cells(int n_nodes, int order, bool with_edge_nodes);
+
 /// Derivatives of the shape functions of an element at some points.
 struct ShapeDerivatives {
   int n_nodes;

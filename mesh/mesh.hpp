@@ -11,11 +11,27 @@
 
 namespace chladni::mesh {
 
-enum class Shape { line, triangle, quadrilateral };
+enum class Shape { line, triangle, quadrilateral, tetrahedron, hexahedron, wedge };
 
-/// Elements of one shape and order. The nodes of an element are in lattice order. A quadrilateral
-/// of order p has (p+1)^2 nodes, xi fastest; a triangle (p+1)(p+2)/2, r fastest, in rows that get
-/// shorter; a line p+1 nodes from end to end.
+/// 1 of lines, 2 of surfaces, 3 of solids.
+constexpr int dimension(Shape shape)
+{
+  if (shape == Shape::line) return 1;
+  return shape == Shape::triangle || shape == Shape::quadrilateral ? 2 : 3;
+}
+constexpr bool is_surface(Shape shape)
+{
+  return dimension(shape) == 2;
+}
+constexpr bool is_solid(Shape shape)
+{
+  return dimension(shape) == 3;
+}
+
+/// Elements of one shape and order. The nodes of a line or surface element are in lattice order. A
+/// quadrilateral of order p has (p+1)^2 nodes, xi fastest; a triangle (p+1)(p+2)/2, r fastest, in
+/// rows that get shorter; a line p+1 nodes from end to end. A solid has nodes at its corners and on
+/// its edges, in the order of `solid_nodes` (element_types.hpp).
 struct ElementBlock {
   Shape shape;
   int order;
@@ -34,7 +50,7 @@ struct ElementBlock {
 /// A named set of nodes: a physical group or a ring.
 struct Group {
   std::string name;
-  int dimension;  ///< 0, 1 or 2
+  int dimension;  ///< 0 to 3
   std::vector<int>
       nodes;  ///< indices into Mesh::positions; of a ring ordered by angle, else ascending
 };
@@ -47,11 +63,11 @@ struct Sectors {
       pairs;  ///< nodes (low, high) of the cut edges of the mesh: one turn takes low to high
 };
 
-/// A mesh of lines, triangles and quadrilaterals in space; the same on every rank.
+/// A mesh of lines, surfaces and solids in space; the same on every rank.
 struct Mesh {
   std::vector<std::int64_t> node_numbers;        ///< [n] numbers of the mesh file
   std::vector<std::array<double, 3>> positions;  ///< [n], m
-  std::vector<ElementBlock> blocks;              ///< surfaces, and the lines that are beams
+  std::vector<ElementBlock> blocks;              ///< surfaces, solids, and the lines that are beams
   std::vector<Group> groups;
   std::vector<std::string> notes;  ///< for the user: what was changed or left out on reading
   Sectors sectors = {};

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/element_types.hpp"
+
 namespace chladni::mesh {
 
 namespace {
@@ -110,8 +112,9 @@ int nodes_of(Shape shape, int order)
       return (order + 1) * (order + 2) / 2;
     case Shape::quadrilateral:
       return (order + 1) * (order + 1);
+    default:
+      return static_cast<int>(solid_nodes(shape, order).size());
   }
-  return 0;
 }
 
 void check_nodes(const Mesh& mesh)
@@ -150,7 +153,7 @@ void check(const Mesh& mesh)
   check_nodes(mesh);
   for (const ElementBlock& block : mesh.blocks) check_block(block, mesh);
   for (const Group& group : mesh.groups) {
-    require(group.dimension >= 0 && group.dimension <= 2, "a group of no dimension");
+    require(group.dimension >= 0 && group.dimension <= 3, "a group of no dimension");
     check_indices(group.nodes, 0, mesh.positions.size(), "a group of nodes that are not there");
   }
   for (const auto& [low, high] : mesh.sectors.pairs)
@@ -246,6 +249,10 @@ void transfer_generators(auto& archive, auto& options)
   archive.optional(options.pad, [](auto& a, auto& o) { transfer_pad(a, o); });
   archive.optional(options.rectangle, [](auto& a, auto& o) { transfer_rectangle(a, o); });
   archive.optional(options.beam, [](auto& a, auto& o) { transfer_beam_mesh(a, o); });
+  archive.optional(options.extrude, [](auto& a, auto& o) {
+    auto& [from, to, layers] = o;
+    a.all(from, to, layers);
+  });
 }
 
 void transfer_options(auto& archive, auto& options)
@@ -271,6 +278,7 @@ void transfer_options(auto& archive, auto& options)
   transfer_rings(archive, options.rings);
   archive.each(options.line_groups, [](auto& a, auto& name) { a(name); });
   archive.each(options.shell_groups, [](auto& a, auto& name) { a(name); });
+  archive.each(options.solid_groups, [](auto& a, auto& name) { a(name); });
   archive.each(options.coupled_groups, [](auto& a, auto& name) { a(name); });
   archive(options.doubled_elements);
 }

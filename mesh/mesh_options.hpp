@@ -223,6 +223,12 @@ struct SizeAt {
   double size;              ///< m
 };
 
+/// Solids over a plane mesh.
+struct Extrusion {
+  double from, to;  ///< m, heights; from < to
+  int layers = 1;
+};
+
 /// The table [mesh] of a scene: exactly one generator or a file.
 struct MeshOptions {
   std::optional<AnnulusOptions> annulus = {};
@@ -230,6 +236,7 @@ struct MeshOptions {
   std::optional<PadOptions> pad = {};
   std::optional<RectangleOptions> rectangle = {};
   std::optional<BeamMeshOptions> beam = {};
+  std::optional<Extrusion> extrude = {};  ///< of an annulus, pad or rectangle
   /// A .msh, .geo, .step or a file of another program, resolved against the folder of the scene
   /// file. All further members are about the file.
   std::optional<std::string> file = {};
@@ -244,6 +251,7 @@ struct MeshOptions {
   std::vector<std::string> line_groups = {};  ///< groups of curves that become line elements
   /// Groups of surfaces with a section. They decide where an element is in several groups.
   std::vector<std::string> shell_groups = {};
+  std::vector<std::string> solid_groups = {};  ///< groups of volumes with a section
   /// Groups of rigid couplings and links, whose nodes stay although no element has them.
   std::vector<std::string> coupled_groups = {};
   int sectors = 1;  ///< number of equal sectors, of which the file holds one

@@ -7,6 +7,7 @@
 
 #include "common/checked_count.hpp"
 #include "common/error.hpp"
+#include "mesh/element_types.hpp"
 
 namespace chladni::mesh {
 
@@ -17,14 +18,6 @@ struct CornerLists {
   std::vector<idx_t> start{0};
   std::vector<idx_t> corners;
 };
-
-std::vector<int> corner_places(const ElementBlock& block)
-{
-  const int p = block.order;
-  if (block.shape == Shape::line) return {0, p};
-  if (block.shape == Shape::triangle) return {0, p, block.nodes_per_element - 1};
-  return {0, p, block.nodes_per_element - 1, block.nodes_per_element - 1 - p};
-}
 
 CornerLists corner_lists(const Mesh& mesh)
 {
@@ -50,9 +43,10 @@ std::vector<idx_t> element_parts(const Mesh& mesh, int n_parts)
   if (n_parts == 1) return parts;
   auto n_nodes = static_cast<idx_t>(mesh.n_nodes());
   auto parts_wanted = static_cast<idx_t>(n_parts);
-  // Neighbours share an edge; lines have their ends only.
-  const auto is_line = [](const ElementBlock& block) { return block.shape == Shape::line; };
-  idx_t shared_nodes = std::ranges::any_of(mesh.blocks, is_line) ? 1 : 2;
+  // Neighbours share a face, an edge, or the end of a line.
+  int least = 3;
+  for (const ElementBlock& block : mesh.blocks) least = std::min(least, dimension(block.shape));
+  idx_t shared_nodes = least;
   idx_t cut = 0;
   std::vector<idx_t> node_parts(n_nodes);
   const int status = METIS_PartMeshDual(

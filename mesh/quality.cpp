@@ -40,13 +40,9 @@ double angle(const Vector& a, const Vector& b)
 
 Corners corners(const Mesh& mesh, const ElementBlock& block, int element)
 {
-  const int p = block.order;
-  const int last = block.nodes_per_element - 1;
-  const std::vector<int> places = block.shape == Shape::triangle
-                                      ? std::vector<int>{0, p, last}
-                                      : std::vector<int>{0, p, last, last - p};
   Corners x;
-  for (const int k : places) x.push_back(mesh.positions[block.element_nodes(element)[k]]);
+  for (const int k : corner_places(block))
+    x.push_back(mesh.positions[block.element_nodes(element)[k]]);
   return x;
 }
 
@@ -154,7 +150,7 @@ std::vector<ElementQuality> quality(const Mesh& mesh)
 {
   std::vector<ElementQuality> elements;
   for (const ElementBlock& block : mesh.blocks) {
-    if (block.shape == Shape::line) continue;
+    if (!is_surface(block.shape)) continue;
     const PlacesOfBlock places(block);
     for (int e = 0; e < block.n_elements(); ++e) {
       const Corners x = corners(mesh, block, e);
@@ -216,7 +212,7 @@ std::vector<SideOfEdge> sides_of_edges(const Mesh& mesh)
   std::vector<SideOfEdge> sides;
   for (int b = 0; b < int(mesh.blocks.size()); ++b) {
     const ElementBlock& block = mesh.blocks[std::size_t(b)];
-    if (block.shape == Shape::line) continue;
+    if (!is_surface(block.shape)) continue;
     const ShapeDerivatives derivatives = node_derivatives(block.shape, block.order);
     const std::vector<int> lattice = corners_first(block.shape, block.order);
     for (int e = 0; e < block.n_elements(); ++e) {
@@ -226,7 +222,7 @@ std::vector<SideOfEdge> sides_of_edges(const Mesh& mesh)
         lower.insert(is_front ? std::pair(edge.front(), edge[1])
                               : std::pair(edge.back(), edge[edge.size() - 2]));
       }
-      for (std::size_t c = 0; c < (block.shape == Shape::triangle ? 3U : 4U); ++c) {
+      for (std::size_t c = 0; c < std::size_t(n_corners(block.shape)); ++c) {
         const FaceAtNode face = face_at_node(mesh, block, e, lattice[c], derivatives);
         const int node = block.element_nodes(e)[std::size_t(lattice[c])];
         for (const EdgeAtNode& edge : face.edges) {
@@ -504,7 +500,7 @@ std::vector<Overlap> overlaps(const Mesh& mesh)
   std::map<int, std::vector<ElementOfMesh>> of_group;
   for (int b = 0; b < int(mesh.blocks.size()); ++b) {
     const ElementBlock& block = mesh.blocks[std::size_t(b)];
-    if (block.shape == Shape::line) continue;
+    if (!is_surface(block.shape)) continue;
     for (int e = 0; e < block.n_elements(); ++e)
       of_group[block.group[std::size_t(e)]].push_back({b, e});
   }

@@ -10,12 +10,15 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numeric>
 #include <regex>
+#include <utility>
 
-#include "common/error.hpp"
 #include "common/confinement/helper_process.hpp"
+#include "common/error.hpp"
 #include "common/files/input_file.hpp"
 #include "common/files/output_file.hpp"
+#include "mesh/extrude.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/mesh_archive.hpp"
@@ -75,8 +78,36 @@ Mesh read_gmsh(const MeshOptions& options)
 
 namespace {
 
+Mesh generated(const MeshOptions& options);
+
+/// The generator puts nodes on the circles of the rings, each once.
+Mesh solids_over(MeshOptions flat)
+{
+  const Extrusion extrusion = *std::exchange(flat.extrude, std::nullopt);
+  std::vector<RingOptions> rings;
+  if (flat.annulus) {
+    rings = flat.annulus->rings;
+    std::vector<RingOptions> circles;
+    for (RingOptions ring : rings) {
+      const auto same = std::ranges::find(circles, ring.radius, &RingOptions::radius);
+      ring.z.reset();
+      if (same == circles.end())
+        circles.push_back(ring);
+      else
+        same->nodes = std::lcm(same->nodes, ring.nodes);
+    }
+    flat.annulus->rings = std::move(circles);
+  }
+  Mesh plane = generated(flat);
+  std::erase_if(plane.groups, [&](const Group& group) {
+    return std::ranges::find(rings, group.name, &RingOptions::name) != rings.end();
+  });
+  return extruded(plane, extrusion, rings);
+}
+
 Mesh generated(const MeshOptions& options)
 {
+  if (options.extrude) return solids_over(options);
   if (options.annulus) return annulus(*options.annulus);
   if (options.hat_disc) return hat_disc(*options.hat_disc);
   if (options.pad) return pad(*options.pad);

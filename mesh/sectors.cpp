@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "common/error.hpp"
+#include "mesh/element_types.hpp"
 
 namespace chladni::mesh {
 
@@ -83,10 +84,9 @@ double distance(const Point& a, const Point& b)
 /// Corners of a surface element, in order around it.
 std::vector<int> corners(const ElementBlock& block, int element)
 {
-  const auto nodes = block.element_nodes(element);
-  const int p = block.order, last = block.nodes_per_element - 1;
-  if (block.shape == Shape::triangle) return {nodes[0], nodes[p], nodes[last]};
-  return {nodes[0], nodes[p], nodes[last], nodes[last - p]};
+  std::vector<int> around;
+  for (const int k : corner_places(block)) around.push_back(block.element_nodes(element)[k]);
+  return around;
 }
 
 using Segment = std::array<int, 2>;  ///< corner nodes, the lesser first
@@ -96,7 +96,7 @@ std::vector<Segment> boundary(const Mesh& mesh)
 {
   std::map<Segment, int> uses;
   for (const ElementBlock& block : mesh.blocks) {
-    if (block.shape == Shape::line) continue;
+    if (!is_surface(block.shape)) continue;
     for (int e = 0; e < block.n_elements(); ++e) {
       const std::vector<int> around = corners(block, e);
       for (std::size_t i = 0; i < around.size(); ++i) {

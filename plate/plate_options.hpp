@@ -55,6 +55,13 @@ struct ShellSection {
   std::optional<double> loss_factor = {};
 };
 
+/// The material of a physical group of solids.
+struct SolidSection {
+  std::string group;
+  Material material;
+  std::optional<double> loss_factor = {};  ///< eta >= 0, replaces that of the material
+};
+
 enum class BeamTheory { bernoulli_euler, timoshenko };
 
 /// The beam section of a physical group of lines. Local axes: x along the line, z as near to
@@ -101,6 +108,7 @@ struct Spring {
 struct Structure {
   std::span<const ShellSection> shells = {};
   std::span<const BeamSection> beams = {};
+  std::span<const SolidSection> solids = {};
   std::span<const PointMass> masses = {};
   std::span<const Spring> springs = {};
 };
@@ -164,7 +172,8 @@ struct EdgeLoad {
 };
 
 /// A pressure on the elements of a group in the direction of their normals (from the first axis of
-/// an element to its second, right-handed).
+/// an element to its second, right-handed), or on the faces of solids whose nodes are all in the
+/// group, into the body.
 struct PressureLoad {
   std::string group;
   double pressure;  ///< Pa

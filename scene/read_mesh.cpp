@@ -287,7 +287,8 @@ mesh::AnnulusOptions read_annulus(const Table& mesh, Size size)
   annulus.pattern =
       read_pattern(mesh, annulus.sectors > 1 || finds_sectors(mesh) || size == Size::chosen
                              ? mesh::Pattern::structured
-                             : mesh::Pattern::unstructured);
+                         : mesh.has("extrude") ? mesh::Pattern::structured
+                                               : mesh::Pattern::unstructured);
   refuse_free_pattern(mesh, annulus.sectors, annulus.pattern);
   annulus.edge_row = read_edge_row(mesh, width);
   annulus.rings = read_rings(mesh, generated_groups({.annulus = annulus}),
@@ -432,6 +433,29 @@ std::vector<std::string> hat_disc_groups(const mesh::HatDiscOptions& hat)
 
 }  // namespace
 
+namespace {
+
+std::optional<mesh::Extrusion> read_extrusion(const Table& mesh, const mesh::MeshOptions& options)
+{
+  const auto* const rings = options.annulus ? &options.annulus->rings : nullptr;
+  if (!mesh.has("extrude")) return std::nullopt;
+  if (!options.annulus && !options.pad && !options.rectangle)
+    mesh.refuse("extrude", "is for the plane generators annulus, pad and rectangle");
+  if (options.annulus && (options.annulus->sectors > 1 || finds_sectors(mesh)))
+    mesh.refuse("sectors", "is for shells and beams; mesh the whole body of solids");
+  const Table table = mesh.table("extrude");
+  mesh::Extrusion extrusion{.from = table.number("from"), .to = 0.0};
+  extrusion.to = table.number("to", {.above = extrusion.from, .unit = "m, `from`"});
+  if (table.has("layers")) extrusion.layers = table.integer("layers");
+  if (rings == nullptr) return extrusion;
+  for (const mesh::RingOptions& ring : *rings)
+    if (ring.z && (*ring.z < extrusion.from || *ring.z > extrusion.to))
+      mesh.refuse("rings", "\"" + ring.name + "\": its z is not between those of `extrude`");
+  return extrusion;
+}
+
+}  // namespace
+
 mesh::MeshOptions read_generator(const Table& mesh, Size size)
 {
   using Read = void (*)(const Table&, Size, mesh::MeshOptions&);
@@ -447,11 +471,19 @@ mesh::MeshOptions read_generator(const Table& mesh, Size size)
        {"beam", [](const Table& t, Size s, mesh::MeshOptions& o) { o.beam = read_beam(t, s); }}});
   mesh::MeshOptions options;
   read(mesh, size, options);
+  options.extrude = read_extrusion(mesh, options);
   return options;
 }
 
 std::vector<std::string> generated_groups(const mesh::MeshOptions& mesh)
 {
+  if (mesh.extrude) {
+    mesh::MeshOptions flat = mesh;
+    flat.extrude.reset();
+    std::vector<std::string> names = generated_groups(flat);
+    names.insert(names.end(), {"bottom_face", "top_face"});
+    return names;
+  }
   if (mesh.annulus) return {"disc", "inner_edge", "outer_edge"};
   if (mesh.hat_disc) return hat_disc_groups(*mesh.hat_disc);
   if (mesh.pad) return {"pad", "inner_edge", "outer_edge", "first_edge", "last_edge", "corners"};

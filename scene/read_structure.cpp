@@ -80,15 +80,17 @@ plate::Coupling read_coupling(const Table& table, const std::vector<std::string>
   return coupling;
 }
 
-enum class SectionKind { shell, beam };
+enum class SectionKind { shell, beam, solid };
 
 /// A generated mesh has either surfaces or lines; a file shows when it is read.
 void check_kind(const Table& section, SectionKind kind, const mesh::MeshOptions& mesh)
 {
   if (mesh.beam && kind != SectionKind::beam)
     section.refuse("type", "the generator \"beam\" makes lines; use \"beam\"");
-  if (!mesh.beam && !mesh.file && kind != SectionKind::shell)
-    section.refuse("type", "this generator makes surfaces; use \"shell\"");
+  if (mesh.extrude && kind != SectionKind::solid)
+    section.refuse("type", "`extrude` makes solids; use \"solid\"");
+  if (!mesh.beam && !mesh.extrude && !mesh.file && kind != SectionKind::shell)
+    section.refuse("type", "this generator makes surfaces; use \"shell\", or `extrude` in [mesh]");
 }
 
 double read_shear_factor(const Table& section, std::string_view key, plate::BeamTheory theory)
@@ -177,8 +179,13 @@ plate::Material read_material_of(const Table& table, const Table& root)
   return read_material_of(table, read_materials(root));
 }
 
-std::vector<int> read_model_components(const Table& root)
+std::vector<int> read_model_components(const Table& root, const Sections& sections)
 {
+  if (!sections.solids.empty()) {
+    if (root.has("model"))
+      root.refuse("model", "solids have the displacements x, y, z at each node and no other DOF");
+    return {0, 1, 2};
+  }
   if (!root.has("model")) return {0, 1, 2, 3, 4, 5};
   std::vector<int> components = read_component_list(root.table("model"), "dofs");
   std::ranges::sort(components);
@@ -193,14 +200,20 @@ Sections read_sections(const Table& root, const Scene& scene)
   std::set<std::string> taken;
   Sections sections;
   for (const Table& table : root.tables("section")) {
-    const auto kind = table.choice<SectionKind>(
-        "type", {{"shell", SectionKind::shell}, {"beam", SectionKind::beam}});
+    const auto kind = table.choice<SectionKind>("type", {{"shell", SectionKind::shell},
+                                                         {"beam", SectionKind::beam},
+                                                         {"solid", SectionKind::solid}});
     const std::string group = read_group(table, groups);
     if (!taken.insert(group).second) table.refuse("group", "has another section already");
     check_kind(table, kind, scene.mesh);
     const plate::Material& material = read_material_of(table, materials);
     if (kind == SectionKind::beam) {
       sections.beams.push_back(read_beam_section(table, group, material));
+      continue;
+    }
+    if (kind == SectionKind::solid) {
+      sections.solids.push_back(
+          {.group = group, .material = material, .loss_factor = read_loss_factor(table)});
       continue;
     }
     sections.shells.push_back({.group = group,
@@ -210,6 +223,12 @@ Sections read_sections(const Table& root, const Scene& scene)
                                .loss_factor = read_loss_factor(table)});
   }
   if (taken.empty()) root.refuse("section", "must hold at least one section");
+  if (!sections.solids.empty() && taken.size() > sections.solids.size()) {
+    root.refuse(
+        "section",
+        "solids stand beside neither shells nor beams in one body; model the parts as bodies "
+        "of an assembly");
+  }
   return sections;
 }
 

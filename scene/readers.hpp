@@ -25,14 +25,16 @@ std::optional<Accuracy> read_accuracy(const Table& root);
 /// element size is left open.
 mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path);
 
-/// Reads dofs of [model], the DOF components of each node; without the table all six.
-std::vector<int> read_model_components(const Table& root);
-
-/// Shell and beam sections.
+/// Sections of shells, beams and solids.
 struct Sections {
   std::vector<plate::ShellSection> shells;
   std::vector<plate::BeamSection> beams;
+  std::vector<plate::SolidSection> solids;
 };
+
+/// Reads dofs of [model], the DOF components of each node; without the table all six, and x, y, z
+/// of solids, which have no others.
+std::vector<int> read_model_components(const Table& root, const Sections& sections);
 
 /// Reads [[section]] with the [material.NAME] that each names; needs the mesh of `scene`.
 Sections read_sections(const Table& root, const Scene& scene);

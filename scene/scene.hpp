@@ -71,6 +71,7 @@ struct Scene {
   std::vector<int> components = {0, 1, 2, 3, 4, 5};
   std::vector<plate::ShellSection> sections;
   std::vector<plate::BeamSection> beams;
+  std::vector<plate::SolidSection> solids;
   std::vector<plate::PointMass> masses;
   std::vector<plate::Spring> springs;
   std::vector<Deviation> deviations;  ///< of a body of which only one sector is meshed

@@ -1,5 +1,8 @@
 #include "linear/dense/dense_solvers.hpp"
 
+#include <algorithm>
+#include <limits>
+
 namespace Eigen {
 
 template class SelfAdjointEigenSolver<MatrixXd>;
@@ -52,6 +55,17 @@ MatrixXcd columns_of_Q(const Eigen::HouseholderQR<MatrixXcd>& qr, Index n)
 MatrixXd least_squares(const MatrixXd& A, const MatrixXd& B)
 {
   return A.completeOrthogonalDecomposition().solve(B);
+}
+
+double condition_number(const Eigen::MatrixXd& A)
+{
+  if (A.size() == 0) return 1.0;
+  constexpr Eigen::Index few = 64;
+  const Eigen::VectorXd s = std::min(A.rows(), A.cols()) <= few
+                                ? Eigen::JacobiSVD<Eigen::MatrixXd>(A).singularValues()
+                                : Eigen::BDCSVD<Eigen::MatrixXd>(A).singularValues();
+  const double least = s[s.size() - 1];
+  return least > 0.0 ? s[0] / least : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace chladni::linear

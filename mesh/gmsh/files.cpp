@@ -14,8 +14,8 @@
 #include <numbers>
 #include <string_view>
 
-#include "common/error.hpp"
 #include "common/confinement/sandbox.hpp"
+#include "common/error.hpp"
 #include "mesh/decks/read_deck.hpp"
 #include "mesh/gmsh_text.hpp"
 #include "mesh/mesh_archive.hpp"
@@ -233,7 +233,9 @@ Mesh read_file(const MeshOptions& options, const std::function<void()>& before_r
     before_reading();
     return read_here(options);
   }
-  const int order = source == MeshSource::msh ? 0 : options.element_order.value_or(3);
+  const int order = source == MeshSource::msh
+                        ? 0
+                        : options.element_order.value_or(options.solid_groups.empty() ? 3 : 2);
   const double unit = source == MeshSource::step ? 1e-3 : options.length_unit;
   std::vector<std::string> notes;
   const auto build = [&] {

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "common/error.hpp"
+#include "mesh/element_types.hpp"
 #include "mesh/mesh_repair.hpp"
 #include "mesh/quality.hpp"
 
@@ -71,6 +72,35 @@ ElementType line_type(ElementType line, const std::vector<double>& local)
   return line;
 }
 
+/// A solid has nodes at its corners and on its edges; those of faces and of the inside are left
+/// out.
+/// @param local  parent coordinates of Gmsh's nodes
+ElementType solid_type(ElementType solid, int n_primary, const std::string& name,
+                       const std::vector<double>& local)
+{
+  const std::map<int, Shape> shapes{
+      {4, Shape::tetrahedron}, {6, Shape::wedge}, {8, Shape::hexahedron}};
+  const auto shape = shapes.find(n_primary);
+  if (shape == shapes.end() || solid.order > 3) {
+    throw Error(fmt::format(
+        "the mesh has solids of the type \"{}\"; Chladni takes hexahedra of order 1 to 3, "
+        "tetrahedra of order 1 and 2, and wedges of order 2",
+        name));
+  }
+  solid.shape = shape->second;
+  constexpr double near = 1e-6;
+  for (const std::array<double, 3>& wanted : solid_nodes(solid.shape, solid.order)) {
+    for (int k = 0; k < solid.n_nodes; ++k) {
+      const std::size_t at = 3 * std::size_t(k);
+      if (std::abs(local[at] - wanted[0]) + std::abs(local[at + 1] - wanted[1]) +
+              std::abs(local[at + 2] - wanted[2]) <
+          near)
+        solid.lattice.push_back(k);
+    }
+  }
+  return solid;
+}
+
 ElementType element_type(int type)
 {
   std::string name;
@@ -81,6 +111,7 @@ ElementType element_type(int type)
   gmsh::model::mesh::getElementProperties(type, name, dimension, element.order, element.n_nodes,
                                           local, n_primary);
   if (dimension == 1) return line_type(element, local);
+  if (dimension == 3) return solid_type(element, n_primary, name, local);
   if (n_primary < 3 || n_primary > 4 || element.order > 4) {
     throw Error(
         fmt::format("the mesh has elements of the type \"{}\"; Chladni takes triangles and "
@@ -155,8 +186,10 @@ struct NamedGroup {
 /// highest keeps it, and the others are called NAME_lines and NAME_nodes.
 std::vector<NamedGroup> named_groups(std::vector<std::string>& notes)
 {
+  constexpr std::array suffixes{"_nodes", "_lines", "_faces", ""};
+  constexpr std::array entities{"points", "curves", "surfaces", "volumes"};
   std::vector<NamedGroup> groups;
-  for (int dimension = 0; dimension <= 2; ++dimension) {
+  for (int dimension = 0; dimension <= 3; ++dimension) {
     for (const auto& [dim, tag] : physical_entities(dimension)) {
       const std::string name = physical_name(dim, tag);
       const auto same = std::ranges::find_if(groups, [&](const NamedGroup& group) {
@@ -175,9 +208,9 @@ std::vector<NamedGroup> named_groups(std::vector<std::string>& notes)
     if (std::ranges::none_of(groups, is_higher)) continue;
     const std::string name = group.name;
     while (std::ranges::count(groups, group.name, &NamedGroup::name) > 1)
-      group.name += group.dimension == 1 ? "_lines" : "_nodes";
+      group.name += suffixes[std::size_t(group.dimension)];
     notes.push_back(fmt::format("the group \"{}\" of {} is called \"{}\" here", name,
-                                group.dimension == 1 ? "curves" : "points", group.name));
+                                entities[std::size_t(group.dimension)], group.name));
   }
   return groups;
 }
@@ -219,7 +252,10 @@ void take_entities(const Mesh& mesh, const NamedGroup& named,
         throw Error(fmt::format(
             "{} {} is in the groups \"{}\" and \"{}\", which have a section each; take it out of "
             "one",
-            named.dimension == 1 ? "curve" : "surface", e, other, named.name));
+            named.dimension == 1   ? "curve"
+            : named.dimension == 2 ? "surface"
+                                   : "volume",
+            e, other, named.name));
       }
       taken->second = group;
     }
@@ -230,9 +266,12 @@ GroupOfEntity read_groups(Mesh& mesh, const NodeIndex& index, const MeshOptions&
 {
   GroupOfEntity group_of_entity;
   for (const NamedGroup& named : named_groups(mesh.notes)) {
-    const bool is_surface = named.dimension == 2;
-    const auto& with_section = is_surface ? options.shell_groups : options.line_groups;
-    if (is_surface || (named.dimension == 1 && has_name(options.line_groups, named.name)))
+    const auto& with_section = named.dimension == 3   ? options.solid_groups
+                               : named.dimension == 2 ? options.shell_groups
+                                                      : options.line_groups;
+    // Surfaces beside volumes are faces of these, and all surfaces are shells otherwise.
+    const bool is_of_shells = named.dimension == 2 && options.solid_groups.empty();
+    if (is_of_shells || (named.dimension > 0 && has_name(with_section, named.name)))
       take_entities(mesh, named, with_section, group_of_entity);
     mesh.groups.push_back(nodes_of(named, index));
   }
@@ -299,15 +338,16 @@ std::size_t n_elements(int dimension)
       n_solids, n_lines));
 }
 
-void note_what_is_left_out(Mesh& mesh)
+void note_what_is_left_out(Mesh& mesh, const MeshOptions& options)
 {
   const std::size_t n_solids = n_elements(3);
-  if (n_solids > 0) mesh.notes.push_back(fmt::format("{} solid elements are left out", n_solids));
+  if (n_solids > 0 && options.solid_groups.empty())
+    mesh.notes.push_back(fmt::format("{} solid elements are left out", n_solids));
   const auto empty = [](const Group& group) { return group.nodes.empty(); };
   for (const Group& group : mesh.groups) {
     if (!empty(group)) continue;
     mesh.notes.push_back(
-        fmt::format("group \"{}\" is left out: no surface element has a node of it", group.name));
+        fmt::format("group \"{}\" is left out: no element has a node of it", group.name));
   }
 }
 
@@ -319,20 +359,37 @@ std::string path_of_gmsh()
   return function != nullptr && dladdr(function, &home) != 0 ? home.dli_fname : "";
 }
 
+/// Tetrahedra and wedges with four and six nodes are far too stiff.
+void raise_linear_solids(Mesh& mesh)
+{
+  std::vector<int> types;
+  gmsh::model::mesh::getElementTypes(types, 3);
+  constexpr int tetrahedron = 4, wedge = 6;
+  const bool is_linear =
+      std::ranges::count(types, tetrahedron) + std::ranges::count(types, wedge) > 0;
+  if (!is_linear) return;
+  gmsh::model::mesh::setOrder(2);
+  mesh.notes.emplace_back(
+      "solids of order 1 got nodes in the middle of their edges: with corners alone they are far "
+      "too "
+      "stiff");
+}
+
 Mesh current_model(const MeshOptions& options)
 {
   Mesh mesh;
+  if (!options.solid_groups.empty()) raise_linear_solids(mesh);
   const NodeIndex index = read_nodes(mesh);
   GroupOfEntity group_of_entity = read_groups(mesh, index, options);
-  std::vector<std::pair<int, int>> surfaces;
-  gmsh::model::getEntities(surfaces, 2);
-  for (const auto& surface : surfaces) group_of_entity.emplace(surface, -1);  // in no group
+  std::vector<std::pair<int, int>> others;
+  gmsh::model::getEntities(others, options.solid_groups.empty() ? 2 : 3);
+  for (const auto& other : others) group_of_entity.emplace(other, -1);  // in no group
   for (const auto& [entity, group] : group_of_entity) read_elements(mesh, index, entity, group);
   if (mesh.blocks.empty()) refuse_wrong_dimension();
   merge_doubled_elements(mesh, options);
   add_inner_nodes(mesh);
   drop_unused_nodes(mesh, options.coupled_groups);
-  note_what_is_left_out(mesh);
+  note_what_is_left_out(mesh, options);
   return mesh;
 }
 
@@ -354,7 +411,7 @@ const std::vector<Way> other_ways{
 /// Meshes the open model in two dimensions.
 Mesh generated_elements(int order, const MeshOptions& options)
 {
-  gmsh::model::mesh::generate(2);
+  gmsh::model::mesh::generate(options.solid_groups.empty() ? 2 : 3);
   if (order > 1) gmsh::model::mesh::setOrder(order);
   return split_flat_corners(current_model(options));
 }
@@ -404,8 +461,12 @@ Mesh mesh_with_gmsh(const std::function<void()>& build, int order, const MeshOpt
   try {
     set_meshing_options();
     build();
-    Mesh mesh = order > 0 && n_elements(2) == 0 ? best_elements(order, options)
-                                                : split_flat_corners(current_model(options));
+    // Quadrilaterals around a volume of tetrahedra would need pyramids between them.
+    if (!options.solid_groups.empty()) gmsh::option::setNumber("Mesh.RecombineAll", 0);
+    const int dimension = options.solid_groups.empty() ? 2 : 3;
+    Mesh mesh = order > 0 && n_elements(dimension) == 0
+                    ? best_elements(order, options)
+                    : split_flat_corners(current_model(options));
     mesh.made_by = path_of_gmsh();
     return mesh;
   } catch (const Error&) {

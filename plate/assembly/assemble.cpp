@@ -6,15 +6,18 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <set>
 
 #include "common/all_ranks.hpp"
 #include "common/checked_count.hpp"
+#include "mesh/element_types.hpp"
 #include "plate/assembly/block_rows.hpp"
 #include "plate/assembly/element_motion.hpp"
 #include "plate/dofs/couplings.hpp"
 #include "plate/dofs/drilling.hpp"
 #include "plate/dofs/point_elements.hpp"
 #include "plate/elements/interpolation.hpp"
+#include "plate/elements/solid_element.hpp"
 #include "plate/sections/sections.hpp"
 
 namespace chladni::plate {
@@ -216,13 +219,10 @@ void add_load(const mesh::Mesh& mesh, const EdgeLoad& load, Forces& forces)
     forces.add_force(node, share * vector_of(load.line_force));
 }
 
-/// f_i = int N_i p (a_1 x a_2) d xi d eta over one element.
-void add_pressure(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element, double p,
-                  Forces& forces)
+/// f_i = int N_i p (a_1 x a_2) d xi d eta over one surface.
+void add_pressure(const mesh::Mesh& mesh, std::span<const int> nodes, const Points& points,
+                  const Basis& basis, double p, Forces& forces)
 {
-  const Points points = gauss_points(block.shape, block.order + 2);
-  const Basis basis = lagrange_basis(block.shape, block.order, points);
-  const std::span<const int> nodes = block.element_nodes(element);
   const Eigen::MatrixX3d x = positions_of(mesh, nodes);
   const Eigen::MatrixX3d a_1 = basis.N_xi * x;
   const Eigen::MatrixX3d a_2 = basis.N_eta * x;
@@ -240,15 +240,29 @@ void add_load(const mesh::Mesh& mesh, const PressureLoad& load, Forces& forces)
   const auto index = static_cast<int>(&group - mesh.groups.data());
   int n_elements = 0;
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    if (block.shape == mesh::Shape::line) continue;
+    if (!mesh::is_surface(block.shape)) continue;
+    const Points points = gauss_points(block.shape, block.order + 2);
+    const Basis basis = lagrange_basis(block.shape, block.order, points);
     for (int e = 0; e < block.n_elements(); ++e) {
       if (block.group[e] != index) continue;
-      add_pressure(mesh, block, e, load.pressure, forces);
+      add_pressure(mesh, block.element_nodes(e), points, basis, load.pressure, forces);
       ++n_elements;
     }
   }
-  if (n_elements == 0)
-    throw Error(fmt::format("pressure on \"{}\": the group has no shell elements", load.group));
+  const std::set<int> members(group.nodes.begin(), group.nodes.end());
+  for (const mesh::FreeFace& face : mesh::free_faces(mesh)) {
+    if (!std::ranges::all_of(face.nodes, [&](int node) { return members.contains(node); }))
+      continue;
+    const FaceRule& rule =
+        face_rule(static_cast<int>(face.nodes.size()), mesh.blocks[face.block].order);
+    add_pressure(mesh, face.nodes, rule.points, rule.basis, -load.pressure, forces);  // inwards
+    ++n_elements;
+  }
+  if (n_elements == 0) {
+    throw Error(
+        fmt::format("pressure on \"{}\": the group has neither shell elements nor faces of solids",
+                    load.group));
+  }
 }
 
 /// The acceleration as the motion of every node.

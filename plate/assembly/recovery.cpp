@@ -136,7 +136,7 @@ ShellResultants nodal_resultants(const mesh::Mesh& mesh, const ShellSection& sec
   NodalSums sums{.values = MatrixXd::Zero(mesh.n_nodes(), 17)};
   const int rank = petsc::rank(comm), n_ranks = petsc::size(comm);
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    if (block.shape == mesh::Shape::line) continue;
+    if (!mesh::is_surface(block.shape)) continue;
     for (int e = rank; e < block.n_elements(); e += n_ranks) {
       if (block.group[e] != index) continue;
       add_element({mesh, block, e, section}, orientation, motions, sums);

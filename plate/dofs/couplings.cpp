@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "common/error.hpp"
@@ -529,13 +530,9 @@ Eigen::VectorXd shares_of_edge(const mesh::Mesh& mesh, const std::vector<int>& e
   return basis.N.leftCols(p + 1).transpose() * lengths;
 }
 
-/// int N_i dA of one element.
-Eigen::VectorXd shares_of_element(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
-                                  int element)
+/// int N_i dA of one surface.
+Eigen::VectorXd shares_of_surface(const NodeVectors& x, const Points& points, const Basis& basis)
 {
-  const Points points = gauss_points(block.shape, block.order + 2);
-  const Basis basis = lagrange_basis(block.shape, block.order, points);
-  const NodeVectors x = element_positions(mesh, block, element);
   const NodeVectors a_1 = basis.N_xi * x;
   const NodeVectors a_2 = basis.N_eta * x;
   Eigen::VectorXd areas(points.size());
@@ -544,18 +541,44 @@ Eigen::VectorXd shares_of_element(const mesh::Mesh& mesh, const mesh::ElementBlo
   return basis.N.transpose() * areas;
 }
 
+Eigen::VectorXd shares_of_element(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
+                                  int element)
+{
+  const Points points = gauss_points(block.shape, block.order + 2);
+  return shares_of_surface(element_positions(mesh, block, element), points,
+                           lagrange_basis(block.shape, block.order, points));
+}
+
+Eigen::VectorXd shares_of_face(const mesh::Mesh& mesh, const mesh::FreeFace& face)
+{
+  NodeVectors x(std::ssize(face.nodes), 3);
+  for (Index i = 0; i < x.rows(); ++i)
+    x.row(i) = Eigen::RowVector3d(mesh.positions[face.nodes[std::size_t(i)]].data());
+  const FaceRule& rule =
+      face_rule(static_cast<int>(face.nodes.size()), mesh.blocks[face.block].order);
+  return shares_of_surface(x, rule.points, rule.basis);
+}
+
 std::map<int, double> surface_shares(const mesh::Mesh& mesh, const mesh::Group& group)
 {
   const auto index = static_cast<int>(&group - mesh.groups.data());
   std::map<int, double> shares;
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    if (block.shape == mesh::Shape::line) continue;
+    if (!mesh::is_surface(block.shape)) continue;
     for (int e = 0; e < block.n_elements(); ++e) {
       if (block.group[e] != index) continue;
       const Eigen::VectorXd of_element = shares_of_element(mesh, block, e);
       for (Eigen::Index i = 0; i < of_element.size(); ++i)
         shares[block.element_nodes(e)[i]] += of_element[i];
     }
+  }
+  const std::set<int> members(group.nodes.begin(), group.nodes.end());
+  for (const mesh::FreeFace& face : mesh::free_faces(mesh)) {
+    if (!std::ranges::all_of(face.nodes, [&](int node) { return members.contains(node); }))
+      continue;
+    const Eigen::VectorXd of_face = shares_of_face(mesh, face);
+    for (std::size_t i = 0; i < face.nodes.size(); ++i)
+      shares[face.nodes[i]] += of_face[static_cast<Index>(i)];
   }
   return shares;
 }

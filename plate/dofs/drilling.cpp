@@ -29,7 +29,7 @@ std::vector<bool> have_other_stiffness(const mesh::Mesh& mesh, const DofMap& dof
   std::vector<bool> have(dofs.n_nodes(), false), is_of_element(dofs.n_nodes(), false);
   for (const mesh::ElementBlock& block : mesh.blocks) {
     for (const int node : block.nodes) is_of_element[node] = true;
-    if (block.shape != mesh::Shape::line) continue;
+    if (mesh::is_surface(block.shape)) continue;
     for (const int node : block.nodes) have[node] = true;
   }
   for (int node = 0; node < dofs.n_nodes(); ++node) {

@@ -189,9 +189,13 @@ class Resistance {
   std::vector<MatrixXd> gram_;
 };
 
-/// What supports, and the components that the nodes do not have, hold.
-void hold_supports(const DofMap& dofs, const Restraints& restraints, Resistance& resistance)
+/// What supports hold, and the components that the nodes of shells and beams do not have. Nodes of
+/// solids have no rotations to be held.
+void hold_supports(const mesh::Mesh& mesh, const DofMap& dofs, const Restraints& restraints,
+                   Resistance& resistance)
 {
+  const bool has_solids =
+      std::ranges::any_of(mesh.blocks, [](const auto& block) { return is_solid(block.shape); });
   const std::vector<int>& held = restraints.held;
   for (int node = 0; node < dofs.n_nodes(); ++node) {
     const Vector3d axis =
@@ -199,7 +203,8 @@ void hold_supports(const DofMap& dofs, const Restraints& restraints, Resistance&
     for (int component = 0; component < 6; ++component) {
       const auto dof = dofs.dof(node, component);
       const bool has_component = std::ranges::binary_search(dofs.components(), component);
-      if (dof ? std::ranges::binary_search(held, *dof) : dofs.is_plain(node) && !has_component)
+      if (dof ? std::ranges::binary_search(held, *dof)
+              : dofs.is_plain(node) && !has_component && !has_solids)
         resistance.hold(node, component, dof ? axis : Vector3d::Zero());
     }
   }
@@ -231,7 +236,7 @@ std::vector<FreePart> free_parts_under(const mesh::Mesh& mesh, const DofMap& dof
   const Parts parts = connected_parts(mesh, dofs, placed);
   const std::vector<Extent> extent = extents(dofs, parts);
   Resistance resistance(dofs, parts, extent);
-  hold_supports(dofs, restraints, resistance);
+  hold_supports(mesh, dofs, restraints, resistance);
   for (const PlacedSpring& spring : placed) resistance.add(spring);
   std::vector<FreePart> free;
   for (int body = 0; body < parts.n_bodies; ++body) {

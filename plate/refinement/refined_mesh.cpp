@@ -116,10 +116,9 @@ int Lattice::size() const
       return n_ + 1;
     case Shape::triangle:
       return (n_ + 1) * (n_ + 2) / 2;
-    case Shape::quadrilateral:
-      break;
+    default:
+      return (n_ + 1) * (n_ + 1);
   }
-  return (n_ + 1) * (n_ + 1);
 }
 
 int Lattice::place(int i, int j) const
@@ -220,7 +219,7 @@ EdgeCuts::EdgeCuts(const mesh::Mesh& mesh, const std::vector<double>& rows)
 {
   if (rows.empty()) return;
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    if (block.shape == mesh::Shape::line) continue;
+    if (!mesh::is_surface(block.shape)) continue;
     for (int e = 0; e < block.n_elements(); ++e)
       for (const std::vector<int>& edge : mesh::edges_of(block, e)) ++n_elements_[key_of(edge)];
   }

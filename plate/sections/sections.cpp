@@ -28,18 +28,22 @@ using Eigen::Index, Eigen::Matrix3d, Eigen::RowVector3d;
 
 namespace {
 
-enum class Kind { shell, beam };
+enum class Kind { shell, beam, solid };
 
 Kind kind_of(const mesh::ElementBlock& block)
 {
-  return block.shape == mesh::Shape::line ? Kind::beam : Kind::shell;
+  constexpr std::array kinds{Kind::beam, Kind::shell, Kind::solid};
+  return kinds[std::size_t(mesh::dimension(block.shape) - 1)];
 }
 
 int index_of_section(const SectionMap& map, const mesh::ElementBlock& block, int element)
 {
   const int group = block.group[element];
   if (group < 0) return -1;
-  return kind_of(block) == Kind::beam ? map.beam[group] : map.shell[group];
+  const Kind kind = kind_of(block);
+  return kind == Kind::beam    ? map.beam[group]
+         : kind == Kind::shell ? map.shell[group]
+                               : map.solid[group];
 }
 
 /// A formula may be negative where a table cannot.
@@ -65,8 +69,8 @@ void refuse_not_finite(const mesh::Mesh& mesh, const mesh::ElementBlock& block, 
   const std::string group = mesh.groups[std::size_t(block.group[element])].name;
   const char* which = is_K ? "mass" : is_M ? "stiffness" : "stiffness and mass";
   const char* why =
-      kind_of(block) == Kind::beam
-          ? "look at its length, section and material"
+      kind_of(block) != Kind::shell
+          ? "look at its size, section and material"
           : "the two faces of the shell cross in it, because it is curved more sharply than half "
             "its "
             "thickness, or its values overflow; make the section thinner, round the corner more "
@@ -87,7 +91,7 @@ std::vector<char> nodes_on_surfaces(const mesh::Mesh& mesh)
 {
   std::vector<char> on_surface(mesh.positions.size(), 0);
   for (const mesh::ElementBlock& block : mesh.blocks)
-    if (block.shape != mesh::Shape::line)
+    if (mesh::is_surface(block.shape))
       for (const int node : block.nodes) on_surface[static_cast<std::size_t>(node)] = 1;
   return on_surface;
 }
@@ -106,10 +110,12 @@ SectionMap map_sections(const mesh::Mesh& mesh, const Structure& structure)
 {
   const SectionMap map{.shell = section_of_group(mesh, structure.shells),
                        .beam = section_of_group(mesh, structure.beams),
+                       .solid = section_of_group(mesh, structure.solids),
                        .on_surface = nodes_on_surfaces(mesh)};
   for (const ShellSection& section : structure.shells) check_thickness(mesh, section);
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (kind_of(block) == Kind::shell) check_element_exists(block.shape, block.order);
+    if (kind_of(block) == Kind::solid) check_solid_exists(block.shape, block.order);
     for (int e = 0; e < block.n_elements(); ++e) {
       const int section = index_of_section(map, block, e);
       if (section < 0) {
@@ -137,6 +143,13 @@ PlacedMatrices element_matrices(const mesh::Mesh& mesh, const mesh::ElementBlock
     refuse_not_finite(mesh, block, element, line.matrices);
     return line;
   }
+  if (kind_of(block) == Kind::solid) {
+    PlacedMatrices solid{.matrices = solid_matrices(solid_of_mesh(mesh, block, element),
+                                                    context.structure.solids[index].material),
+                         .arms = {}};
+    refuse_not_finite(mesh, block, element, solid.matrices);
+    return solid;
+  }
   const ShellSection& section = context.structure.shells[index];
   const ShellNodes shell = shell_nodes(mesh, block, element, context.directors, section);
   PlacedMatrices placed{
@@ -149,8 +162,10 @@ PlacedMatrices element_matrices(const mesh::Mesh& mesh, const mesh::ElementBlock
 double loss_factor(const mesh::ElementBlock& block, int element, const ElementContext& context)
 {
   const int index = index_of_section(context.sections, block, element);
-  return kind_of(block) == Kind::beam ? loss_factor_of(context.structure.beams[index])
-                                      : loss_factor_of(context.structure.shells[index]);
+  const Kind kind = kind_of(block);
+  return kind == Kind::beam    ? loss_factor_of(context.structure.beams[index])
+         : kind == Kind::shell ? loss_factor_of(context.structure.shells[index])
+                               : loss_factor_of(context.structure.solids[index]);
 }
 
 bool has_loss_factors(const Structure& structure)
@@ -158,6 +173,7 @@ bool has_loss_factors(const Structure& structure)
   const auto is_lossy = [](const auto& section) { return loss_factor_of(section) > 0.0; };
   return std::ranges::any_of(structure.shells, is_lossy) ||
          std::ranges::any_of(structure.beams, is_lossy) ||
+         std::ranges::any_of(structure.solids, is_lossy) ||
          std::ranges::any_of(structure.springs,
                              [](const Spring& spring) { return spring.loss_factor > 0.0; });
 }
@@ -189,14 +205,29 @@ std::vector<int> find_sections(const mesh::Mesh& mesh, std::span<const Section> 
 
 std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const ShellSection> sections)
 {
-  const auto is_surface = [](mesh::Shape shape) { return shape != mesh::Shape::line; };
-  return find_sections(mesh, sections, is_surface, "shell");
+  return find_sections(mesh, sections, mesh::is_surface, "shell");
 }
 
 std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const BeamSection> sections)
 {
   const auto is_line = [](mesh::Shape shape) { return shape == mesh::Shape::line; };
   return find_sections(mesh, sections, is_line, "line");
+}
+
+std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const SolidSection> sections)
+{
+  return find_sections(mesh, sections, mesh::is_solid, "solid");
+}
+
+SolidFrame solid_of_mesh(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element)
+{
+  SolidFrame frame = solid_frame(block.shape, block.order, element_positions(mesh, block, element));
+  if (frame.dV.minCoeff() > 0.0) return frame;
+  throw Error(
+      fmt::format("element {} is degenerate or turned inside out (its Jacobian is not positive at "
+                  "an integration point); repair the mesh there, or mesh it with straight edges or "
+                  "smaller elements",
+                  block.numbers[element]));
 }
 
 namespace {
@@ -367,7 +398,7 @@ template <typename Visit>
 void for_elements(const mesh::Mesh& mesh, const NodeMask& wanted, const Visit& visit)
 {
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    if (block.shape == mesh::Shape::line) continue;
+    if (!mesh::is_surface(block.shape)) continue;
     for (int e = 0; e < block.n_elements(); ++e) {
       const auto is_wanted = [&](int node) { return wanted[std::size_t(node)] != 0; };
       if (std::ranges::any_of(block.element_nodes(e), is_wanted)) visit(block, e);

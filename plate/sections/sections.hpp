@@ -9,6 +9,7 @@
 #include "plate/elements/beam_element.hpp"
 #include "plate/elements/shell_element.hpp"
 #include "plate/elements/shell_strains.hpp"
+#include "plate/elements/solid_element.hpp"
 #include "plate/plate_options.hpp"
 
 namespace chladni::plate {
@@ -51,6 +52,7 @@ ShellNodes shell_nodes(const mesh::Mesh& mesh, const mesh::ElementBlock& block, 
 struct SectionMap {
   std::vector<int> shell;        ///< [n_groups]
   std::vector<int> beam;         ///< [n_groups]
+  std::vector<int> solid;        ///< [n_groups]
   std::vector<char> on_surface;  ///< [n_nodes] true for the nodes of surface elements
 };
 
@@ -95,6 +97,11 @@ bool has_loss_factors(const Structure& structure);
 /// @throws chladni::Error when the group of a section is unknown or has no elements of its kind.
 std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const ShellSection> sections);
 std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const BeamSection> sections);
+std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const SolidSection> sections);
+
+/// A solid at its integration points.
+/// @throws chladni::Error naming the element if it is turned inside out at one of them.
+SolidFrame solid_of_mesh(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element);
 
 /// The value of a profile at a place of the model, m.
 /// @throws chladni::Error when a formula cannot be parsed or has no finite value there.

@@ -14,6 +14,7 @@
 
 #include "mesh/element_types.hpp"
 #include "plate/dofs/couplings.hpp"
+#include "plate/sections/sections.hpp"
 #include "report/page/page.hpp"
 #include "report/text_table.hpp"
 #include "report/version.hpp"
@@ -34,8 +35,13 @@ std::size_t n_cells(const mesh::Mesh& mesh, Detail detail)
 {
   std::size_t n = 0;
   for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (mesh::is_solid(block.shape)) continue;
     n += mesh::lattice_cells(block, step_of(detail, block.order)).size() *
          static_cast<std::size_t>(block.n_elements());
+  }
+  for (const mesh::FreeFace& face : mesh::free_faces(mesh)) {
+    const int order = mesh.blocks[face.block].order;
+    n += mesh::face_cells(int(face.nodes.size()), order, detail == Detail::lattice).size();
   }
   return n;
 }
@@ -57,9 +63,14 @@ std::vector<int> clusters(const mesh::Mesh& mesh, double width)
 class Drawer {
  public:
   Drawer(const mesh::Mesh& mesh, Detail detail, std::vector<int> drawn)
-      : mesh_(mesh), drawn_(std::move(drawn)), place_(mesh.positions.size(), -1)
+      : mesh_(mesh),
+        drawn_(std::move(drawn)),
+        place_(mesh.positions.size(), -1),
+        is_on_skin_(mesh.positions.size(), 0)
   {
     drawing_.detail = detail;
+    for (const mesh::FreeFace& face : mesh::free_faces(mesh))
+      for (const int node : face.nodes) is_on_skin_[std::size_t(node)] = 1;
   }
   void add_cells();
   void add_edges();
@@ -74,6 +85,7 @@ class Drawer {
   const mesh::Mesh& mesh_;
   std::vector<int> drawn_;
   std::vector<Place> place_;
+  std::vector<char> is_on_skin_;  ///< of solids
   std::set<std::vector<Place>> seen_;
   MeshDrawing drawing_;
 };
@@ -110,7 +122,17 @@ void Drawer::add_cell(std::array<Place, 4> corners, int group, mesh::Shape shape
 
 void Drawer::add_cells()
 {
+  for (const mesh::FreeFace& face : mesh::free_faces(mesh_)) {
+    const mesh::ElementBlock& block = mesh_.blocks[face.block];
+    const bool with_edges = drawing_.detail == Detail::lattice;
+    for (mesh::LatticeCell cell :
+         mesh::face_cells(int(face.nodes.size()), block.order, with_edges)) {
+      for (int& corner : cell) corner = place(face.nodes[std::size_t(corner)]);
+      add_cell(cell, block.group[face.element], block.shape);
+    }
+  }
   for (const mesh::ElementBlock& block : mesh_.blocks) {
+    if (mesh::is_solid(block.shape)) continue;
     const std::vector<mesh::LatticeCell> cells =
         mesh::lattice_cells(block, step_of(drawing_.detail, block.order));
     for (int e = 0; e < block.n_elements(); ++e) {
@@ -140,6 +162,8 @@ void Drawer::add_edges()
   for (const mesh::ElementBlock& block : mesh_.blocks) {
     for (int e = 0; e < block.n_elements(); ++e) {
       for (const std::vector<int>& edge : mesh::edges_of(block, e)) {
+        const auto is_outside = [&](int node) { return is_on_skin_[std::size_t(node)] != 0; };
+        if (mesh::is_solid(block.shape) && !std::ranges::all_of(edge, is_outside)) continue;
         const std::vector<Place> places = along(edge);
         if (!seen.insert(std::minmax(places.front(), places.back())).second) continue;
         for (std::size_t i = 1; i < places.size(); ++i)
@@ -213,11 +237,24 @@ std::vector<GroupKind> kinds_by_elements(const mesh::Mesh& mesh)
 {
   std::vector<GroupKind> kinds(mesh.groups.size(), GroupKind::points);
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    const bool is_line = block.shape == mesh::Shape::line;
+    constexpr std::array of_dimension{GroupKind::lines, GroupKind::surface, GroupKind::volume};
     for (const int group : block.group)
-      if (group >= 0) kinds[group] = is_line ? GroupKind::lines : GroupKind::surface;
+      if (group >= 0) kinds[group] = of_dimension[std::size_t(mesh::dimension(block.shape) - 1)];
   }
+  const bool has_solids = std::ranges::any_of(
+      mesh.blocks, [](const mesh::ElementBlock& block) { return mesh::is_solid(block.shape); });
+  for (std::size_t g = 0; g < kinds.size(); ++g)
+    if (has_solids && mesh.groups[g].dimension == 2) kinds[g] = GroupKind::surface;
   return kinds;
+}
+
+double volume_of(const mesh::Mesh& mesh, int group)
+{
+  double volume = 0.0;
+  for (const mesh::ElementBlock& block : mesh.blocks)
+    for (int e = 0; mesh::is_solid(block.shape) && e < block.n_elements(); ++e)
+      if (block.group[e] == group) volume += plate::solid_of_mesh(mesh, block, e).dV.sum();
+  return volume;
 }
 
 double sum(const std::map<int, double>& shares)
@@ -254,6 +291,10 @@ GroupParts parts_of(const mesh::Mesh& mesh, const mesh::Group& group, GroupKind 
   GroupParts parts{.kind = kind, .edges = {}, .points = {}, .extents = extents_of(mesh, group)};
   // A curve and a surface of a file may have one name, which then means the first of them.
   const bool is_meant = &mesh::find_group(mesh, group.name) == &group;
+  if (kind == GroupKind::volume) {
+    parts.size = volume_of(mesh, static_cast<int>(&group - mesh.groups.data()));
+    return parts;
+  }
   if (kind == GroupKind::surface) {
     if (is_meant) parts.size = sum(plate::group_shares(mesh, group.name));
     return parts;
@@ -271,6 +312,8 @@ GroupParts parts_of(const mesh::Mesh& mesh, const mesh::Group& group, GroupKind 
 std::string name_of(GroupKind kind)
 {
   switch (kind) {
+    case GroupKind::volume:
+      return "volume";
     case GroupKind::surface:
       return "surface";
     case GroupKind::lines:
@@ -357,6 +400,12 @@ std::string name_of(mesh::Shape shape)
       return "triangles";
     case mesh::Shape::quadrilateral:
       return "quadrilaterals";
+    case mesh::Shape::tetrahedron:
+      return "tetrahedra";
+    case mesh::Shape::hexahedron:
+      return "hexahedra";
+    case mesh::Shape::wedge:
+      return "wedges";
   }
   return "";
 }

@@ -15,6 +15,7 @@ namespace chladni::report {
 
 /// How a group of a mesh is shown.
 enum class GroupKind {
+  volume,   ///< of solids
   surface,  ///< the group's elements
   lines,    ///< the group's beam elements
   curve,    ///< element edges between the group's nodes

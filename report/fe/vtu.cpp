@@ -91,9 +91,31 @@ int vtu_cell_type(mesh::Shape shape, int order)
       return order == 1 ? 5 : 69;
     case mesh::Shape::quadrilateral:
       return order == 1 ? 9 : 70;
+    case mesh::Shape::tetrahedron:
+      return 24;
+    case mesh::Shape::hexahedron:
+      return order == 2 ? 25 : 12;
+    case mesh::Shape::wedge:
+      return 26;
   }
   return 0;
 }
+
+namespace {
+
+/// The places of the nodes that a cell lists: VTK has no hexahedron with 32 nodes, so that order 3
+/// is told by its corners.
+std::vector<int> cell_places(const mesh::ElementBlock& block)
+{
+  if (!mesh::is_solid(block.shape)) return mesh::corners_first(block.shape, block.order);
+  std::vector<int> places = mesh::corner_places(block);
+  for (int k = static_cast<int>(places.size()); block.order == 2 && k < block.nodes_per_element;
+       ++k)
+    places.push_back(k);
+  return places;
+}
+
+}  // namespace
 
 std::string vtu_text(const VtuGrid& grid)
 {
@@ -136,7 +158,7 @@ class Points {
 void add_cell(VtuGrid& grid, Points& points, const mesh::ElementBlock& block, int element)
 {
   const std::span<const int> nodes = block.element_nodes(element);
-  for (const int place : mesh::corners_first(block.shape, block.order))
+  for (const int place : cell_places(block))
     grid.connectivity.push_back(points.point(nodes[place], block.group[element]));
   grid.offsets.push_back(static_cast<int>(grid.connectivity.size()));
   grid.types.push_back(vtu_cell_type(block.shape, block.order));
@@ -249,7 +271,7 @@ void add_cell(Cells& cells, int type, int group, std::int64_t element)
 
 void add_elements(Cells& cells, const mesh::ElementBlock& block)
 {
-  const std::vector<int> order = mesh::corners_first(block.shape, block.order);
+  const std::vector<int> order = cell_places(block);
   for (int e = 0; e < block.n_elements(); ++e) {
     for (const int place : order) cells.grid.connectivity.push_back(block.element_nodes(e)[place]);
     add_cell(cells, vtu_cell_type(block.shape, block.order), block.group[e], block.numbers[e]);

@@ -43,7 +43,7 @@ constexpr Key model_rows[] = {
     {"section", tables, "required",
      "[sections](sections_and_couplings.md), one for each group of elements"},
     {"section.group", text, "required", "group of the mesh"},
-    {"section.type", word, "required", "of the elements", {}, "shell | beam"},
+    {"section.type", word, "required", "of the elements", {}, "shell | beam | solid"},
     {"section.material", text, "required", "NAME of a material"},
     {"section.thickness",
      number,

@@ -19,6 +19,7 @@ ELSEWHERE = {
     "plugin": "plugin.py",
     "python": "../python/CMakeLists.txt",
     "response": "response.py",
+    "solid_disc": "solids.py",
     "read_body.py": "../cli/chladni_export_test.cpp",
     "thesis_disc": "thesis_disc.py",
 }

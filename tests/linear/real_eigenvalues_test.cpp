@@ -36,6 +36,22 @@ MatrixXd random_matrix(Index n)
   return MatrixXd::NullaryExpr(n, n, [&] { return value(random); });
 }
 
+/// Q D Q^T with an orthogonal Q has the condition number of D, by rotations and by a bidiagonal
+/// form.
+TEST(ConditionNumber, IsThatOfADiagonalBetweenRotations)
+{
+  for (const Index n : {Index{5}, Index{100}}) {
+    const MatrixXd Q = columns_of_Q(Eigen::HouseholderQR<MatrixXd>(random_matrix(n)), n);
+    const Eigen::VectorXd d =
+        Eigen::VectorXd::LinSpaced(n, 0.0, 6.0).unaryExpr([](double exponent) {
+          return std::pow(10.0, -exponent);
+        });
+    EXPECT_NEAR(condition_number(Q * d.asDiagonal() * Q.transpose()), 1e6, 1e-1);  // eps cond^2
+  }
+  EXPECT_EQ(condition_number(MatrixXd()), 1.0);
+  EXPECT_EQ(condition_number(MatrixXd::Zero(3, 3)), std::numeric_limits<double>::infinity());
+}
+
 TEST(RealEigenvalues, AreThoseOfEigenAndOfTheSum)
 {
   for (const Index n : {1, 2, 3, 4, 5, 8, 33, 120}) {
