@@ -13,8 +13,8 @@ endfunction()
 # replace Eigen's (docs/explanation/decisions/0011-products-are-compiled-once.md).
 function(chladni_compile target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion)
-  # In a batch a source sees what others before it declare for themselves.
-  if(NOT CHLADNI_BATCHES)
+  # Of sources that are compiled as one, a source sees what others before it declare for themselves.
+  if(NOT CMAKE_UNITY_BUILD)
     target_compile_options(${target} PRIVATE -Wshadow)
   endif()
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)  # GCC 12 warns of these falsely inside Eigen

@@ -32,8 +32,8 @@ def build(with_fe):
     """The folder in which CMake has built the package."""
     folder = SOURCE / "build" / ("python" if with_fe else "python-squeal")
     environment = {"CCACHE_BASEDIR": str(SOURCE), "CCACHE_NOHASHDIR": "true", **os.environ}
-    choices = {"CMAKE_BUILD_TYPE": "Release", "CHLADNI_FE": "ON" if with_fe else "OFF", "CHLADNI_BATCHES": "ON",
-               "BUILD_TESTING": "OFF", "PYTHON_EXECUTABLE": sys.executable}  # fmt: skip
+    choices = {"CMAKE_BUILD_TYPE": "Release", "CHLADNI_FE": "ON" if with_fe else "OFF", "CMAKE_UNITY_BUILD": "ON",
+               "CMAKE_UNITY_BUILD_BATCH_SIZE": "12", "BUILD_TESTING": "OFF", "PYTHON_EXECUTABLE": sys.executable}  # fmt: skip
     options = [f"-D{name}={value}" for name, value in choices.items()]
     for words in (["-S", SOURCE, "-B", folder, "-G", "Ninja", "-Wno-dev", *options], ["--build", folder, "--target", "chladni_python"]):
         subprocess.run(["cmake", *words], check=True, env=environment)

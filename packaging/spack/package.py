@@ -27,7 +27,7 @@ class Chladni(CMakePackage):
     depends_on("cmake@3.25:", type="build")
     depends_on("ninja", type="build")
     depends_on("pkgconfig", type="build")
-    depends_on("python@3.9:", type="build")  # generates pages, completions and batches of sources
+    depends_on("python@3.9:", type="build")  # generates pages and completions
     depends_on("googletest", type="test")
 
     depends_on("eigen@3.4:")
@@ -62,7 +62,8 @@ class Chladni(CMakePackage):
             self.define_from_variant("CHLADNI_FE", "fe"),
             self.define_from_variant("CHLADNI_PYTHON", "python"),
             self.define("BUILD_TESTING", self.run_tests),
-            self.define("CHLADNI_BATCHES", True),
+            self.define("CMAKE_UNITY_BUILD", True),
+            self.define("CMAKE_UNITY_BUILD_BATCH_SIZE", "12"),
         ]
         if "+python" in self.spec:
             arguments.append(self.define("PYTHON_EXECUTABLE", self.spec["python"].command.path))

@@ -359,26 +359,40 @@ def plainly(path, fault):
     return text[:fault.first] + fault.plain + text[fault.last:]
 
 
+INCLUDED = re.compile(r'#include "([^"]+)"')
+UNITY = re.compile(r"/chladni_(\w+)\.dir/Unity/unity_\d+_cxx\.cxx$")
+
+
+def sources_of(unity):
+    """The sources that CMake compiles as one file."""
+    return [pathlib.Path(path).relative_to(ROOT).as_posix() for path in INCLUDED.findall(unity.read_text(encoding="utf-8"))]
+
+
 class Library:
-    """The batches of a library, compiled with faults, and programs linked with them."""
+    """The sources of a library that are compiled as one, with faults, and programs linked with them."""
 
     def __init__(self, build, scratch, libraries, programs):
         self.build, self.scratch, self.programs = build, scratch, programs
         subprocess.run(["ninja", "-C", str(build), *(f"tests/{p}" for p in programs)], stdout=subprocess.DEVNULL, check=True)
         listed = subprocess.run(["ninja", "-C", str(build), "-t", "commands", *(f"tests/{p}" for p in programs)],
                                 stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()  # fmt: skip
-        self.batches = {}
+        self.commands = {}
         for command in listed:
-            match = re.search(r"-c (\S*/batches/chladni_(\w+?)_(\d+)\.cpp)$", command)
-            if match and match[2] in libraries:
-                self.batches[match[1]] = command
+            of_library = UNITY.search(command)
+            if of_library and of_library[1] in libraries:
+                self.commands[pathlib.Path(shlex.split(command)[-1])] = command
         self.links = {p: next(c for c in listed if f" -o tests/{p} " in c) for p in programs}
         # The listener needs what a test is compiled with.
-        self.of_test = next(c for c in listed if f"/batches/{programs[0]}_0.cpp" in c and " -c " in c)
+        self.of_test = next(c for c in listed if f"/{programs[0]}.dir/Unity/unity_0_cxx.cxx" in c and " -c " in c)
 
     def sources(self):
-        return {batch: re.findall(r'#include "([^"]+)"', pathlib.Path(batch).read_text(encoding="utf-8"))
-                for batch in self.batches}  # fmt: skip
+        return {unity: sources_of(unity) for unity in self.commands}
+
+    def with_faults(self, unity, folder, name):
+        """The object file with those sources that the folder has, or what the compiler says."""
+        text = "".join(f'#include "{folder / path if (folder / path).is_file() else ROOT / path}"\n' for path in sources_of(unity))
+        (folder / unity.name).write_text(text, encoding="utf-8")
+        return self.compile(self.commands[unity], folder / unity.name, folder, name)
 
     def compile(self, command, source, folder, name):
         """The object file, or what the compiler says."""
@@ -387,7 +401,7 @@ class Library:
         for flag, value in (("-o", str(out)), ("-c", str(source)), ("-MF", str(out) + ".d"), ("-MT", str(out))):
             words[words.index(flag) + 1] = value
         first = next(i for i, w in enumerate(words) if w.startswith("-I"))
-        words[first:first] = [f"-I{folder}", "-include", str(self.scratch / "mutants.hpp"), "-ferror-limit=0", "-w"]
+        words[first:first] = ["-include", str(self.scratch / "mutants.hpp"), "-ferror-limit=0", "-w"]
         done = subprocess.run(words, cwd=self.build, stderr=subprocess.PIPE, text=True, check=False)
         return (out, "") if done.returncode == 0 else (None, done.stderr)
 
@@ -426,16 +440,16 @@ def runs(program, build, timeout, mutant=None, tests=None, reached=None):
 def compiled(library, faults):
     """Objects with all faults that can stand together; the others are marked."""
     objects = []
-    for batch, paths in library.sources().items():
-        of_batch = [f for f in faults if f.path in paths]
-        if not of_batch:
+    for unity, paths in library.sources().items():
+        together = [f for f in faults if f.path in paths]
+        if not together:
             continue
-        folder = library.scratch / pathlib.Path(batch).stem
+        folder = library.scratch / f"{unity.parents[1].stem}_{unity.stem}"
         while True:
-            for path in {f.path for f in of_batch}:
+            for path in {f.path for f in together}:
                 (folder / path).parent.mkdir(parents=True, exist_ok=True)
-                (folder / path).write_text(planted(path, [f for f in of_batch if f.path == path and not f.by_itself]), encoding="utf-8")
-            made, errors = library.compile(library.batches[batch], batch, folder, "switched")
+                (folder / path).write_text(planted(path, [f for f in together if f.path == path and not f.by_itself]), encoding="utf-8")
+            made, errors = library.with_faults(unity, folder, "switched")
             if made:
                 objects.append(made)
                 break
@@ -443,8 +457,8 @@ def compiled(library, faults):
                      for m in re.finditer(r"^(\S+?):(\d+):\d+: error", errors, re.M) if m[1].startswith(str(folder))}
             wrong |= {(pathlib.Path(m[1]).relative_to(folder).as_posix(), int(m[2]))
                       for m in re.finditer(r"^(\S+?):(\d+):\d+: note: in instantiation", errors, re.M) if m[1].startswith(str(folder))}
-            marked = [f for f in of_batch if not f.by_itself and any(p == f.path and abs(f.line - n) < 4 for p, n in wrong)]
-            for fault in marked or [f for f in of_batch if not f.by_itself]:
+            marked = [f for f in together if not f.by_itself and any(p == f.path and abs(f.line - n) < 4 for p, n in wrong)]
+            for fault in marked or [f for f in together if not f.by_itself]:
                 fault.by_itself = True
     return objects
 
@@ -502,11 +516,11 @@ def try_library(room, build, scratch, faults):
     for fault in faults:
         if not fault.by_itself:
             continue
-        batch = next(b for b, paths in library.sources().items() if fault.path in paths)
+        unity = next(u for u, paths in library.sources().items() if fault.path in paths)
         folder = scratch / f"alone_{fault.number}"
         (folder / fault.path).parent.mkdir(parents=True, exist_ok=True)
         (folder / fault.path).write_text(plainly(fault.path, fault), encoding="utf-8")
-        made, _ = library.compile(library.batches[batch], batch, folder, "alone")
+        made, _ = library.with_faults(unity, folder, "alone")
         if made is None:
             fault.outcome = "no program"
         else:
@@ -558,12 +572,12 @@ def main():
     names = sys.argv[4:] or list(ROOMS)
     seed = int(subprocess.run(["git", "rev-list", "--count", "HEAD"], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout)
     generator = random.Random(seed)
+    room_of = {library: room for room in names for library in ROOMS[room][0]}
     paths = {}
-    for room in names:
-        for library in ROOMS[room][0]:
-            for batch in sorted((build / "batches").glob(f"chladni_{library}_[0-9]*.cpp")):
-                for path in re.findall(r'#include "([^"]+)"', batch.read_text(encoding="utf-8")):
-                    paths[path] = room
+    for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
+        of_library = UNITY.search(entry["file"])
+        if of_library and of_library[1] in room_of:
+            paths.update((path, room_of[of_library[1]]) for path in sources_of(pathlib.Path(entry["file"])))
     chosen = drawn(sorted(paths), number, generator)
     for i, fault in enumerate(chosen):
         fault.number = i

@@ -3,9 +3,9 @@
 
 usage: tidy.py BUILD_FOLDER SOURCE...
 
-Most of the time goes into the headers of Eigen and of the standard library, which a batch reads only
-once. What a batch complains of is asked again file by file, so that nothing is reported that is not
-there when a file is alone. A file has passed when its text, its headers, the rules and the tool are
+Most of the time goes into the headers of Eigen and of the standard library, which the sources of a
+target read only once together. What is found in them is asked again file by file, so that nothing is
+reported that is not there when a file is alone. A file has passed when its text, its headers, the rules and the tool are
 the same; all checkouts of a user share what has passed.
 """
 import concurrent.futures
@@ -18,8 +18,6 @@ import re
 import shlex
 import subprocess
 import sys
-
-from batches import batches
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PASSED = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "chladni" / "lint"
@@ -73,6 +71,19 @@ def rules_of(path):
     return next(folder / ".clang-tidy" for folder in path.parents if (folder / ".clang-tidy").is_file())
 
 
+def target_of(entry):
+    """Whose sources have distinct names in their unnamed namespaces."""
+    return re.search(r" -o \S*CMakeFiles/([^/]+)\.dir/", entry["command"])[1]
+
+
+def groups_of(paths, key):
+    """Lists of up to MOST paths of one key."""
+    of_key = {}
+    for path in paths:
+        of_key.setdefault(key(path), []).append(path)
+    return [some[i:i + MOST] for some in of_key.values() for i in range(0, len(some), MOST)]
+
+
 def together(flags):
     """The flags of several sources in one list; of a folder of headers or a macro the first place counts."""
     words = []
@@ -92,13 +103,13 @@ def read_together(paths, flags, folder):
     own = folder / rules.parent.relative_to(ROOT) / paths[0].stem
     own.mkdir(parents=True, exist_ok=True)
     (own / ".clang-tidy").write_text(rules.read_text(encoding="utf-8"), encoding="utf-8")
-    batch = own / f"with_{paths[0].name}"
-    batch.write_text("".join(f'#include "{path}"\n' for path in paths), encoding="utf-8")
-    return complaints(batch, together(flags[path] for path in paths), "--checks=-bugprone-suspicious-include")  # that of a .cpp
+    whole = own / f"with_{paths[0].name}"
+    whole.write_text("".join(f'#include "{path}"\n' for path in paths), encoding="utf-8")
+    return complaints(whole, together(flags[path] for path in paths), "--checks=-bugprone-suspicious-include")  # that of a .cpp
 
 
 def tidy(paths, flags, folder):
-    """What is wrong with a batch; marks the files that have passed."""
+    """What is wrong with files that are read as one; marks those that have passed."""
     wrong = {path: "" for path in paths}
     if len(paths) == 1 or read_together(paths, flags, folder):
         wrong = {path: complaints(path, flags[path]) for path in paths}
@@ -118,10 +129,11 @@ def main():
     # What is not built here, for want of an optional library, cannot be read either.
     paths = [p for p in (pathlib.Path(name).resolve() for name in sys.argv[2:]) if p in flags]
     paths = [p for p in paths if not mark_of(p).exists()]
-    groups = batches(paths, rules_of, MOST)
+    target = {pathlib.Path(entry["file"]).resolve(): target_of(entry) for entry in database}
+    groups = groups_of(paths, lambda path: (target[path], rules_of(path)))
     wrong = False
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as workers:
-        for found in workers.map(lambda batch: tidy(batch, flags, folder), groups):
+        for found in workers.map(lambda group: tidy(group, flags, folder), groups):
             if found:
                 wrong = True
                 print(found, file=sys.stderr, flush=True)
