@@ -133,7 +133,7 @@ std::vector<int> held_dofs(const scene::Scene& scene, const FeModel& fe)
 }
 
 /// Some rows of a dense matrix, on every rank.
-MatrixXd rows_of(Mat X, const std::vector<int>& rows)
+MatrixXd dense_rows(Mat X, const std::vector<int>& rows)
 {
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(X, &first, &last));
@@ -184,7 +184,7 @@ FreeMotions free_motions(const FeModel& fe, const std::vector<int>& held)
 {
   const std::vector<int>& masters = fe.attachments.master_dofs;
   const petsc::Matrix R = plate::rigid_motions(fe.system);
-  MatrixXd R_m = rows_of(R, masters);
+  MatrixXd R_m = dense_rows(R, masters);
   std::vector<int> held_rows;
   for (std::size_t row = 0; row < masters.size(); ++row)
     if (std::ranges::binary_search(held, masters[row])) held_rows.push_back(static_cast<int>(row));

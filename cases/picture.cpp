@@ -127,7 +127,7 @@ void receive(AllRows& all)
   }
 }
 
-void send(const std::vector<int>& places, const std::vector<MatrixXd>& pieces)
+void send_motions(const std::vector<int>& places, const std::vector<MatrixXd>& pieces)
 {
   const auto n = static_cast<int>(places.size());
   MPI_Send(&n, 1, MPI_INT, 0, 0, PETSC_COMM_WORLD);
@@ -164,7 +164,7 @@ mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap
       pieces.push_back(std::move(rows));
   });
   if (!is_first) {
-    send(places, pieces);
+    send_motions(places, pieces);
     return picture;
   }
   receive(all);

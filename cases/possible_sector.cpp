@@ -229,8 +229,10 @@ HeldModes held_modes(const reduce::ReducedModel& model, const std::vector<int>& 
   return modes;
 }
 
-reduce::ResponseLoads loads_of(const reduce::ReducedModel& model, const std::vector<int>& loaded,
-                               const std::vector<int>& held, const mbs_export::Tolerance& tolerance)
+reduce::ResponseLoads response_loads_of_sector(const reduce::ReducedModel& model,
+                                               const std::vector<int>& loaded,
+                                               const std::vector<int>& held,
+                                               const mbs_export::Tolerance& tolerance)
 {
   const HeldModes modes = held_modes(model, held);
   const mbs_export::LoadedDofs forces{
@@ -275,7 +277,7 @@ std::optional<HarmonicResponses> harmonic_responses(const scene::Scene& scene,
     for (std::size_t i = 0; i < masters.size(); ++i)
       if (is_loaded(masters[i]) && std::ranges::count(held, static_cast<int>(i)) == 0)
         loaded.push_back(static_cast<int>(i));
-    return loads_of(reduced, loaded, held, tolerance);
+    return response_loads_of_sector(reduced, loaded, held, tolerance);
   };
   return HarmonicResponses{.goal = {.Omega = 2.0 * std::numbers::pi * tolerance->up_to_Hz,
                                     .tolerance = share * tolerance->error,

@@ -596,7 +596,7 @@ void unpack(const std::vector<char>& bytes, std::vector<HarmonicPart>& parts)
 
 constexpr std::size_t piece = std::size_t(1) << 30;  // an MPI count is an int
 
-void send(const std::vector<char>& bytes)
+void send_packed(const std::vector<char>& bytes)
 {
   const std::size_t size = bytes.size();
   MPI_Send(&size, sizeof(size), MPI_BYTE, 0, 0, PETSC_COMM_WORLD);
@@ -623,7 +623,7 @@ std::vector<char> received(int from)
 std::vector<HarmonicPart> gathered(std::vector<HarmonicPart> own)
 {
   if (rank() > 0) {
-    send(packed(own));
+    send_packed(packed(own));
     return {};
   }
   std::vector<HarmonicPart> parts = std::move(own);

@@ -36,8 +36,8 @@ SupportedSector sector_on(const scene::Scene& scene, const mesh::Mesh& whole, in
 /// Root sums of squares over all sectors of the motion of some nodes of one, as `differences` wants
 /// them.
 /// @return [6 x k]
-MatrixXd sizes_at(const mesh::Mesh& mesh, const std::vector<int>& nodes,
-                  const ModesOfHarmonic& modes)
+MatrixXd mode_sizes_at(const mesh::Mesh& mesh, const std::vector<int>& nodes,
+                       const ModesOfHarmonic& modes)
 {
   MatrixXd squares = MatrixXd::Zero(6, modes.omega.size());
   for (const int node : nodes) {
@@ -132,8 +132,8 @@ RefinedModes refined_modes(const KnownHarmonics& known, const SupportedSector& o
       if (k == 0) continue;
       const ModesOfHarmonic found = solve(modes.order, k);
       const std::vector<Index> mode_of = by_shapes(shares_of(known.sector, modes, other, found));
-      const MatrixXd here = sizes_at(mesh, nodes, modes),
-                     there = sizes_at(other_mesh, others, found);
+      const MatrixXd here = mode_sizes_at(mesh, nodes, modes),
+                     there = mode_sizes_at(other_mesh, others, found);
       for (Index i = 0; i < k; ++i) {
         const Index j = mode_of[std::size_t(i)];
         const bool is_there = j < found.omega.size();
@@ -291,7 +291,7 @@ auto of_own_harmonics(int count, const Work& work)
 }
 
 /// The lowest frequency of all ranks, rad/s.
-double lowest_of(const std::vector<ModesOfHarmonic>& own)
+double lowest_of_harmonics(const std::vector<ModesOfHarmonic>& own)
 {
   double least = std::numeric_limits<double>::infinity();
   for (const ModesOfHarmonic& modes : own)
@@ -372,8 +372,8 @@ std::vector<ModesOfHarmonic> modes_up_to(const SupportedSector& sector, double o
     return lie_above(sector, order, omega) ? ModesOfHarmonic{.order = order} : some(order);
   });
   // The lowest of all harmonics is asked for even where it lies above.
-  if (lowest_of(own) > omega) own = of_own_harmonics(sector.model.dofs.count, some);
-  leave_out_above(own, std::max(omega, lowest_of(own)));
+  if (lowest_of_harmonics(own) > omega) own = of_own_harmonics(sector.model.dofs.count, some);
+  leave_out_above(own, std::max(omega, lowest_of_harmonics(own)));
   return own;
 }
 

@@ -212,7 +212,8 @@ WholeRing add_whole_ring(mbs_export::ReducedSystem& whole, const SectorModel& mo
 }
 
 /// The wanted harmonics of the last set.
-void add_ring_masters(mbs_export::ReducedSystem& whole, const SectorModel& model, int index)
+void add_ring_masters_of_sector(mbs_export::ReducedSystem& whole, const SectorModel& model,
+                                int index)
 {
   const cyclic::Ring& ring = model.dofs.rings[std::size_t(index)];
   const int set = static_cast<int>(whole.sets.size()) - 1;
@@ -259,7 +260,7 @@ mbs_export::ReducedSystem described_whole(const scene::Scene& scene, const Secto
   std::vector<WholeRing> rings;
   for (int r = 0; r < std::ssize(model.dofs.rings); ++r) {
     rings.push_back(add_whole_ring(whole, model, r));
-    add_ring_masters(whole, model, r);
+    add_ring_masters_of_sector(whole, model, r);
   }
   const Eigen::MatrixXd F = shapes_of(whole, model, rings, n_axis);
   whole.ring_motion = {.shapes = F, .displacements = F};  // of the masters alone

@@ -166,7 +166,7 @@ Exported export_reduced(const ExportArguments& arguments, const Source& source,
 }
 
 /// The body in the file, or that of the scene as it is.
-mbs_export::ModalBody body_of(const ExportArguments& arguments, const Source& source)
+mbs_export::ModalBody body_to_export(const ExportArguments& arguments, const Source& source)
 {
   if (!source.scene) {
     mbs_export::ModalBody body = mbs_export::read_body(source.reduced_file);
@@ -184,7 +184,7 @@ formats::FmiVersion fmi_version(const ExportArguments& arguments)
 Exported export_fmu(const ExportArguments& arguments, const Source& source)
 {
   const path file = target_of(arguments, source, ".fmu");
-  const mbs_export::ModalBody body = body_of(arguments, source);
+  const mbs_export::ModalBody body = body_to_export(arguments, source);
   const auto made =
       formats::fmu(body, {.version = fmi_version(arguments),
                           .sets = arguments.nodes,

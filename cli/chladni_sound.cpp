@@ -43,11 +43,11 @@ void write_wav(const scene::Scene& scene, const path& file, const sound::SoundRe
   fmt::print("wrote {}, full scale {:.6g} Pa\n", file.string(), scale);
 }
 
-struct Files {
+struct SoundFiles {
   path body, squeal, sound, radiation, picture, wav;
 };
 
-Files files_of(const scene::Scene& scene, const SceneArguments& arguments)
+SoundFiles sound_files(const scene::Scene& scene, const SceneArguments& arguments)
 {
   const path stem = path(arguments.output) / scene.name;
   const auto with = [&](const char* extension) { return path(stem.string() + extension); };
@@ -67,8 +67,8 @@ mbs_export::Provenance origin_of(const scene::Scene& scene, const SceneArguments
 }
 
 /// Writes what there is of the results: the radiation before there are tones, then these.
-void write_found(const scene::Scene& scene, const Files& files, const sound::SoundResults& results,
-                 const mbs_export::Provenance& origin)
+void write_found(const scene::Scene& scene, const SoundFiles& files,
+                 const sound::SoundResults& results, const mbs_export::Provenance& origin)
 {
   if (results.tones.empty()) {
     squeal::write_radiation(files.radiation, results.radiation, scene.title, origin);
@@ -78,7 +78,7 @@ void write_found(const scene::Scene& scene, const Files& files, const sound::Sou
   }
 }
 
-ReservedOutputs reserve(const SceneArguments& arguments, const Files& files,
+ReservedOutputs reserve(const SceneArguments& arguments, const SoundFiles& files,
                         const SoundChoice& choice)
 {
   if (choice.radiation_only) return reserve_outputs(arguments, {files.radiation});
@@ -94,7 +94,7 @@ scene::Scene read_sounding_scene(const std::string& file)
 }
 
 /// The results of squeal, which are those of the scene as it is.
-squeal::SquealResults read_results_of(const scene::Scene& scene, const Files& files,
+squeal::SquealResults read_results_of(const scene::Scene& scene, const SoundFiles& files,
                                       const SceneArguments& arguments)
 {
   const files::Reader reader(files.squeal.string());
@@ -109,7 +109,7 @@ void compute_sound(const ChladniArguments& arguments)
 {
   report::PhaseClock clock;
   const scene::Scene scene = read_sounding_scene(arguments.scene.scene);
-  const Files files = files_of(scene, arguments.scene);
+  const SoundFiles files = sound_files(scene, arguments.scene);
   const bool whole = !arguments.sound.radiation_only;
   need(files.body, fmt::format("make it with `chladni run {} --output {}`", arguments.scene.scene,
                                arguments.scene.output));

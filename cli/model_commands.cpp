@@ -220,7 +220,7 @@ void modes_command(const ChladniArguments& arguments)
 namespace {
 
 /// What the command writes.
-struct Files {
+struct ModelFiles {
   path values, table, page, universal;  ///< the last one only if it is asked for
 
   std::vector<path> all() const
@@ -231,7 +231,7 @@ struct Files {
   }
 };
 
-Files files_of(const scene::Scene& scene, const ChladniArguments& arguments)
+ModelFiles model_files(const scene::Scene& scene, const ChladniArguments& arguments)
 {
   const auto file = [&](const char* kind) {
     return path(arguments.scene.output) / (scene.name + kind);
@@ -258,7 +258,7 @@ void tell_left_out(const scene::Scene& scene, const mbs_export::FrequencyRespons
   for (const std::string& note : notes) report::tell_note(report::printable(note));
 }
 
-void write_and_print(const ChladniArguments& arguments, const Files& files,
+void write_and_print(const ChladniArguments& arguments, const ModelFiles& files,
                      const mbs_export::FrequencyResponses& responses, const report::Cost& cost)
 {
   const std::string universal =  // before anything is written: not all can be said in one
@@ -306,7 +306,7 @@ mbs_export::FrequencyResponses of_reduction(const scene::Scene& scene,
 void respond_reduced(const ChladniArguments& arguments, const scene::Scene& scene)
 {
   report::PhaseClock clock;
-  const Files files = files_of(scene, arguments);
+  const ModelFiles files = model_files(scene, arguments);
   const ReservedOutputs reserved = reserve_outputs(arguments.scene, files.all());
   mbs_export::FrequencyResponses responses = of_reduction(scene, arguments.scene);
   responses.provenance.scene_file = scene_file_of(arguments.scene);
@@ -319,7 +319,7 @@ void respond_reduced(const ChladniArguments& arguments, const scene::Scene& scen
 void respond_fe(const ChladniArguments& arguments, const scene::Scene& asked)
 {
   const scene::Scene scene = cases::held_as_body(asked);
-  const Files files = files_of(scene, arguments);
+  const ModelFiles files = model_files(scene, arguments);
   const ReservedOutputs reserved = reserve_on_first_rank(arguments.scene, files.all());
   cases::ReduceProgress bar =
       progress_bar({{"mesh", 5.0}, {"assembly", 5.0}, {"frequencies", 90.0}});

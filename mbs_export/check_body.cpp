@@ -370,7 +370,7 @@ void add_definiteness(std::vector<Check>& checks, const ReducedSystem& reduced)
 
 /// A mass-orthonormal basis of the rigid-body motions that the masters can show; nothing when M
 /// gives one of them no mass.
-std::optional<MatrixXd> rigid_basis(const ReducedSystem& reduced)
+std::optional<MatrixXd> orthonormal_rigid_basis(const ReducedSystem& reduced)
 {
   MatrixXd R = rigid_body_vectors(reduced, centre_of_nodes(reduced));
   R.rightCols(3) /= check_parts::characteristic_length(reduced.attachment_nodes);
@@ -480,7 +480,7 @@ Index n_without_energy(const ReducedSystem& reduced, Index n_expected)
 
 void add_rigid_motions(std::vector<Check>& checks, const ReducedSystem& reduced)
 {
-  const std::optional<MatrixXd> B = rigid_basis(reduced);
+  const std::optional<MatrixXd> B = orthonormal_rigid_basis(reduced);
   if (!B) {
     checks.push_back({"mass, kg", Verdict::fail, rigid_inertia(reduced).mass, 0.0,
                       "M gives a rigid-body motion no mass"});

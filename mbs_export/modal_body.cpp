@@ -38,7 +38,7 @@ const ContactRing& find_ring(const ModalBody& body, const std::string& name)
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double placement = 1e-6;  // of angles in rad, of lengths relative to the radius
 
 /// In [0, 2 pi); a round-off below zero is zero.

@@ -37,7 +37,7 @@ Picture picture_in(const ReducedSystem& reduced, const Eigen::MatrixXd& T)
 
 namespace {
 
-double angle_of(std::int64_t part, const SectorMotions& motions)
+double angle_of_part(std::int64_t part, const SectorMotions& motions)
 {
   return 2.0 * std::numbers::pi * double(part % motions.n_sectors) / motions.n_sectors;
 }
@@ -82,11 +82,13 @@ MatrixXd in_coordinates(const SectorMotions& motions, const MatrixXd& T_whole)
   for (const SectorMotions::Harmonic& h : motions.harmonics) {
     const MatrixXd T_h = T(h.columns, every);
     const MatrixXd x = h.x * T_h, y = h.y * T_h;
-    for (int j = 0; j < motions.n_sectors; ++j)
-      whole.middleRows(j * n, n) += in_phase(x, y, angle_of(std::int64_t{h.order} * j, motions));
+    for (int j = 0; j < motions.n_sectors; ++j) {
+      whole.middleRows(j * n, n) +=
+          in_phase(x, y, angle_of_part(std::int64_t{h.order} * j, motions));
+    }
   }
   for (int j = 0; j < motions.n_sectors; ++j)
-    turn(whole.middleRows(j * n, n), angle_of(j, motions));
+    turn(whole.middleRows(j * n, n), angle_of_part(j, motions));
   return whole;
 }
 

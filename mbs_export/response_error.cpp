@@ -281,7 +281,7 @@ MatrixXcd flexibility(const VectorXd& omega, const MatrixXd& B, double Omega)
 
 constexpr double no_size = 1e-300;  // of a load that moves nothing
 
-VectorXd size_of(const MatrixXcd& H, const VectorXd& omega, const MatrixXd& B, double Omega)
+VectorXd response_size(const MatrixXcd& H, const VectorXd& omega, const MatrixXd& B, double Omega)
 {
   const VectorXd incoherent = contributions(omega, B, Omega).rowwise().sum().cwiseSqrt();
   return H.colwise().norm().transpose().cwiseMax(incoherent).cwiseMax(no_size);
@@ -382,7 +382,7 @@ ReferenceResponse reference_response(const VectorXd& omega, const MatrixXd& B,
   reference.size.resize(B.cols(), reference.Omega.size());
   for (Index g = 0; g < reference.Omega.size(); ++g) {
     MatrixXcd H = flexibility(omega, reference.B, reference.Omega[g]);
-    reference.size.col(g) = size_of(H, omega, reference.B, reference.Omega[g]);
+    reference.size.col(g) = response_size(H, omega, reference.B, reference.Omega[g]);
     reference.H.push_back(std::move(H));
   }
   return reference;
@@ -407,7 +407,8 @@ SizesInBand sizes_in_band(const ReferenceResponse& reference, double from, doubl
     const VectorXd slope = B.cwiseAbs().transpose() * (norms / smallest).matrix();
     at_least = at_least.cwiseMax(H.colwise().norm().transpose() - (s_to - s_middle) * slope);
   }
-  return {.at_least = std::move(at_least), .in_middle = size_of(H, omega, B, std::sqrt(s_middle))};
+  return {.at_least = std::move(at_least),
+          .in_middle = response_size(H, omega, B, std::sqrt(s_middle))};
 }
 
 namespace {

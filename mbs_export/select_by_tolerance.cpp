@@ -74,7 +74,7 @@ struct MovedModes {
   ReferenceResponse reference;
 };
 
-std::string name_of(const MovedModes& modes, const ModeCluster& cluster)
+std::string candidate_name(const MovedModes& modes, const ModeCluster& cluster)
 {
   const auto number = [&](int k) { return modes.of_all[std::size_t(k)] + 1; };
   const int first = number(cluster.first), last = number(cluster.end - 1);
@@ -83,7 +83,7 @@ std::string name_of(const MovedModes& modes, const ModeCluster& cluster)
   return fmt::format("modes {} to {}", first, last);
 }
 
-std::string name_of(const LoadGroup& group, double Omega_0)
+std::string candidate_name(const LoadGroup& group, double Omega_0)
 {
   if (Omega_0 == 0.0) return group.name + ", static";
   return fmt::format("{}, {:.6g} Hz", group.name, Omega_0 / (2.0 * std::numbers::pi));
@@ -148,7 +148,7 @@ std::optional<Candidate> interface_candidate(const ReferenceResponse& reference,
   const InterfaceChoice choice{group->patterns, Omega_0};
   Growth growth = growth_with(reference, basis, choice);
   if (growth.n_modes == 0) return std::nullopt;
-  return Candidate{name_of(*group, Omega_0), choice, std::move(growth)};
+  return Candidate{candidate_name(*group, Omega_0), choice, std::move(growth)};
 }
 
 std::vector<Candidate> candidates(const MovedModes& modes, const TrialBasis& basis,
@@ -159,8 +159,10 @@ std::vector<Candidate> candidates(const MovedModes& modes, const TrialBasis& bas
   Place lowest{0, 0};
   basis.error.col(0).maxCoeff(&lowest.load);
   std::vector<Candidate> all;
-  if (const auto cluster = largest_missing_cluster(reference, basis, worst))
-    all.push_back({name_of(modes, *cluster), *cluster, growth_with(reference, basis, *cluster)});
+  if (const auto cluster = largest_missing_cluster(reference, basis, worst)) {
+    all.push_back(
+        {candidate_name(modes, *cluster), *cluster, growth_with(reference, basis, *cluster)});
+  }
   if (auto candidate = interface_candidate(reference, basis, groups, worst))
     all.push_back(std::move(*candidate));
   if (worst.g != 0)
@@ -184,7 +186,7 @@ Path grow(const MovedModes& modes, Path path, double tolerance)
     const auto cluster = largest_missing_cluster(reference, path.basis, worst_place(path.basis));
     if (!cluster) break;
     path.basis = with_cluster(reference, std::move(path.basis), *cluster);
-    path.steps.push_back(step_of(path.basis, name_of(modes, *cluster)));
+    path.steps.push_back(step_of(path.basis, candidate_name(modes, *cluster)));
   }
   return path;
 }
@@ -227,11 +229,11 @@ Path resonant_path(const MovedModes& modes)
   const ReferenceResponse& reference = modes.reference;
   Path path{rigid_basis(reference), {}};
   if (path.basis.n_kept() > 0)
-    path.steps.push_back(step_of(path.basis, name_of(modes, reference.clusters.front())));
+    path.steps.push_back(step_of(path.basis, candidate_name(modes, reference.clusters.front())));
   for (const int c : reference.resonances) {
     const ModeCluster& cluster = reference.clusters[std::size_t(c)];
     path.basis = with_cluster(reference, std::move(path.basis), cluster);
-    path.steps.push_back(step_of(path.basis, name_of(modes, cluster)));
+    path.steps.push_back(step_of(path.basis, candidate_name(modes, cluster)));
   }
   return path;
 }

@@ -19,13 +19,13 @@ Polar polar(const std::array<double, 3>& x, const CurvedRow& row)
   return {.r = std::hypot(dx, dy), .angle = std::atan2(dy, dx), .z = x[2]};
 }
 
-using Corners = std::array<Polar, 3>;
+using PolarCorners = std::array<Polar, 3>;
 
 /// The corners of a triangle of the row, their angles without a jump; nothing for another one.
-std::optional<Corners> corners_in(const Mesh& mesh, const std::array<int, 3>& nodes,
-                                  const CurvedRow& row)
+std::optional<PolarCorners> corners_in(const Mesh& mesh, const std::array<int, 3>& nodes,
+                                       const CurvedRow& row)
 {
-  Corners corners{};
+  PolarCorners corners{};
   for (std::size_t i = 0; i < 3; ++i) {
     corners[i] = polar(mesh.positions[nodes[i]], row);
     const double off =
@@ -37,8 +37,8 @@ std::optional<Corners> corners_in(const Mesh& mesh, const std::array<int, 3>& no
   return corners;
 }
 
-std::array<double, 3> place(const Corners& corners, const std::array<double, 3>& weights,
-                            const CurvedRow& row)
+std::array<double, 3> curved_place(const PolarCorners& corners,
+                                   const std::array<double, 3>& weights, const CurvedRow& row)
 {
   Polar p{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -60,7 +60,8 @@ void bend(Mesh& mesh, const ElementBlock& block, int element, const CurvedRow& r
     for (int i = 0; i + j <= order; ++i, ++node) {
       const double r = double(i) / order, s = double(j) / order;
       const bool is_corner = i == order || j == order || i + j == 0;
-      if (!is_corner) mesh.positions[nodes[node]] = place(*corners, {1.0 - r - s, r, s}, row);
+      if (!is_corner)
+        mesh.positions[nodes[node]] = curved_place(*corners, {1.0 - r - s, r, s}, row);
     }
   }
 }

@@ -189,7 +189,7 @@ void check_bolts(const HatDiscOptions& o)
                    {"top_radius", o.top_radius}});
 }
 
-void check(const HatDiscOptions& o)
+void check_hat_disc(const HatDiscOptions& o)
 {
   check_ascending({{"0", 0.0}, {"hub_radius", o.hub_radius}, {"top_radius", o.top_radius}});
   check_ascending({{"0", 0.0}, {"wall_radius", o.wall_radius}, {"outer_radius", o.outer_radius}});
@@ -216,7 +216,7 @@ void check(const HatDiscOptions& o)
 
 Mesh hat_disc(const HatDiscOptions& options)
 {
-  check(options);
+  check_hat_disc(options);
   Mesh mesh = options.pattern == Pattern::structured ? structured_hat_disc(options)
                                                      : made_by_mesher({.hat_disc = options});
   std::vector<RingOptions> rings = options.rings;
@@ -227,7 +227,7 @@ Mesh hat_disc(const HatDiscOptions& options)
 
 namespace {
 
-double length_of(const BeamMeshOptions& options)
+double length_of_beam(const BeamMeshOptions& options)
 {
   double sum = 0.0;
   for (std::size_t c = 0; c < 3; ++c) sum += std::pow(options.end[c] - options.start[c], 2);
@@ -280,7 +280,7 @@ int node_at(const BeamPoint& point, const std::vector<double>& nodes)
   return static_cast<int>(nearest - nodes.begin());
 }
 
-void add_nodes(Mesh& mesh, const BeamMeshOptions& options, const std::vector<double>& nodes)
+void add_beam_nodes(Mesh& mesh, const BeamMeshOptions& options, const std::vector<double>& nodes)
 {
   for (const double distance : nodes) {
     const double t = distance / nodes.back();
@@ -291,7 +291,7 @@ void add_nodes(Mesh& mesh, const BeamMeshOptions& options, const std::vector<dou
   }
 }
 
-void add_elements(Mesh& mesh, int order)
+void add_beam_elements(Mesh& mesh, int order)
 {
   ElementBlock block{.shape = Shape::line,
                      .order = order,
@@ -311,12 +311,12 @@ void add_elements(Mesh& mesh, int order)
 
 Mesh beam(const BeamMeshOptions& options)
 {
-  const double length = length_of(options);
+  const double length = length_of_beam(options);
   if (!(length > 0.0)) throw Error("beam: start and end are the same point");
   const std::vector<double> nodes = node_distances(options, length);
   Mesh mesh;
-  add_nodes(mesh, options, nodes);
-  add_elements(mesh, options.element_order);
+  add_beam_nodes(mesh, options, nodes);
+  add_beam_elements(mesh, options.element_order);
   Group line{.name = "beam", .dimension = 1, .nodes = std::vector<int>(nodes.size())};
   std::iota(line.nodes.begin(), line.nodes.end(), 0);
   mesh.groups = {line,

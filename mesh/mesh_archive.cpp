@@ -103,7 +103,7 @@ void require(bool holds, const char* what)
   if (!holds) throw Error(fmt::format("the mesh that Gmsh made has {}", what));
 }
 
-int nodes_of(Shape shape, int order)
+int n_nodes_of(Shape shape, int order)
 {
   switch (shape) {
     case Shape::line:
@@ -139,7 +139,7 @@ void check_block(const ElementBlock& block, const Mesh& mesh)
 {
   constexpr int highest_order = 20;
   require(block.order >= 1 && block.order <= highest_order, "elements of no order");
-  const int n = nodes_of(block.shape, block.order);
+  const int n = n_nodes_of(block.shape, block.order);
   require(n > 0 && block.nodes_per_element == n, "elements with too few or too many nodes");
   require(block.numbers.size() < std::size_t(1) << 31, "more elements than can be counted");
   require(block.nodes.size() == block.numbers.size() * std::size_t(n), "elements without nodes");
@@ -148,7 +148,7 @@ void check_block(const ElementBlock& block, const Mesh& mesh)
   check_indices(block.group, -1, mesh.groups.size(), "an element in a group that is not there");
 }
 
-void check(const Mesh& mesh)
+void check_unpacked(const Mesh& mesh)
 {
   check_nodes(mesh);
   for (const ElementBlock& block : mesh.blocks) check_block(block, mesh);
@@ -172,7 +172,7 @@ Mesh unpack_mesh(Unpacker& unpacker)
   Mesh mesh;
   transfer_mesh(unpacker, mesh);
   require(unpacker.at_end(), "more bytes than it says");
-  check(mesh);
+  check_unpacked(mesh);
   return mesh;
 }
 

@@ -245,7 +245,7 @@ namespace {
 const double cosine_limit = std::cos(165.0 * std::numbers::pi / 180.0);
 
 /// Lattice place of column i, row j.
-int place(int order, int i, int j)
+int lattice_place(int order, int i, int j)
 {
   return j * (order + 1) + i;
 }
@@ -257,11 +257,11 @@ double corner_cosine(const Mesh& mesh, const ElementBlock& block, int element, i
   const int i = corner % 2 * p;
   const int j = corner / 2 * p;
   const auto nodes = block.element_nodes(element);
-  const Vector& x = mesh.positions[nodes[place(p, i, j)]];
+  const Vector& x = mesh.positions[nodes[lattice_place(p, i, j)]];
   const int next_i = i == 0 ? 1 : p - 1;
   const int next_j = j == 0 ? 1 : p - 1;
-  const Vector a = minus(mesh.positions[nodes[place(p, next_i, j)]], x);
-  const Vector b = minus(mesh.positions[nodes[place(p, i, next_j)]], x);
+  const Vector a = minus(mesh.positions[nodes[lattice_place(p, next_i, j)]], x);
+  const Vector b = minus(mesh.positions[nodes[lattice_place(p, i, next_j)]], x);
   return dot(a, b) / std::sqrt(dot(a, a) * dot(b, b));
 }
 
@@ -298,8 +298,8 @@ void add_halves(ElementBlock& triangles, const ElementBlock& quads, int element,
   std::vector<int> second;
   for (int j = 0; j <= p; ++j) {
     for (int i = 0; i <= p - j; ++i) {
-      first.push_back(falling ? place(p, i, j) : place(p, p - j, i));
-      second.push_back(falling ? place(p, p - i, p - j) : place(p, j, p - i));
+      first.push_back(falling ? lattice_place(p, i, j) : lattice_place(p, p - j, i));
+      second.push_back(falling ? lattice_place(p, p - i, p - j) : lattice_place(p, j, p - i));
     }
   }
   add_triangle(triangles, quads, element, first);

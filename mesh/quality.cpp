@@ -23,7 +23,7 @@ namespace chladni::mesh {
 
 namespace {
 
-using Corners = std::vector<Vector>;
+using CornerPositions = std::vector<Vector>;
 
 constexpr double degree = std::numbers::pi / 180.0;
 
@@ -38,9 +38,9 @@ double angle(const Vector& a, const Vector& b)
   return std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
-Corners corners(const Mesh& mesh, const ElementBlock& block, int element)
+CornerPositions corner_positions(const Mesh& mesh, const ElementBlock& block, int element)
 {
-  Corners x;
+  CornerPositions x;
   for (const int k : corner_places(block))
     x.push_back(mesh.positions[block.element_nodes(element)[k]]);
   return x;
@@ -108,7 +108,7 @@ double scaled_jacobian(const Mesh& mesh, const ElementBlock& block, int element,
   return inside > 0.0 ? least : std::min(least, inside);
 }
 
-double aspect_ratio(const Corners& x)
+double aspect_ratio(const CornerPositions& x)
 {
   if (x.size() == 4) {
     const double a = norm(minus(mean(x[1], x[2]), mean(x[0], x[3])));
@@ -121,7 +121,7 @@ double aspect_ratio(const Corners& x)
   return longest * longest / twice_area * std::sqrt(3.0) / 2.0;
 }
 
-double warp(const Corners& x)
+double warp(const CornerPositions& x)
 {
   if (x.size() == 3) return 0.0;
   const auto normal = [&](int a, int b, int c) {
@@ -132,7 +132,7 @@ double warp(const Corners& x)
          degree;
 }
 
-double skew(const Corners& x)
+double skew(const CornerPositions& x)
 {
   const std::size_t n = x.size();
   const double ideal = n == 3 ? std::numbers::pi / 3.0 : std::numbers::pi / 2.0;
@@ -153,7 +153,7 @@ std::vector<ElementQuality> quality(const Mesh& mesh)
     if (!is_surface(block.shape)) continue;
     const PlacesOfBlock places(block);
     for (int e = 0; e < block.n_elements(); ++e) {
-      const Corners x = corners(mesh, block, e);
+      const CornerPositions x = corner_positions(mesh, block, e);
       elements.push_back({.number = block.numbers[e],
                           .scaled_jacobian = scaled_jacobian(mesh, block, e, places),
                           .aspect_ratio = aspect_ratio(x),
@@ -189,14 +189,14 @@ Pair ordered(const ElementOfMesh& a, const ElementOfMesh& b)
   return a < b ? Pair{a, b} : Pair{b, a};
 }
 
-std::span<const int> nodes_of(const Mesh& mesh, const ElementOfMesh& of)
+std::span<const int> nodes_of_element(const Mesh& mesh, const ElementOfMesh& of)
 {
   return mesh.blocks[std::size_t(of.block)].element_nodes(of.element);
 }
 
 bool have_the_same_nodes(const Mesh& mesh, const ElementOfMesh& a, const ElementOfMesh& b)
 {
-  return a.block == b.block && std::ranges::is_permutation(nodes_of(mesh, a), nodes_of(mesh, b));
+  return a.block == b.block && std::ranges::is_permutation(nodes_of_element(mesh, a), nodes_of_element(mesh, b));
 }
 
 /// An element at one of its edges, which the node at one end and the next on it name.
@@ -353,16 +353,16 @@ struct Plane {
 std::optional<Plane> plane_of(const Mesh& mesh, const std::vector<ElementOfMesh>& elements)
 {
   const ElementBlock& block = mesh.blocks[std::size_t(elements.front().block)];
-  const auto [a_1, a_2] = tangents(mesh, nodes_of(mesh, elements.front()),
+  const auto [a_1, a_2] = tangents(mesh, nodes_of_element(mesh, elements.front()),
                                    node_derivatives(block.shape, block.order), 0);
   const Vector area = cross(a_1, a_2);
   if (!(norm(area) > 0.0)) return std::nullopt;
-  const Plane plane{.origin = mesh.positions[std::size_t(nodes_of(mesh, elements.front())[0])],
+  const Plane plane{.origin = mesh.positions[std::size_t(nodes_of_element(mesh, elements.front())[0])],
                     .first = unit(a_1),
                     .second = cross(unit(area), unit(a_1))};
   double off = 0.0, size = 0.0;
   for (const ElementOfMesh& element : elements) {
-    for (const int node : nodes_of(mesh, element)) {
+    for (const int node : nodes_of_element(mesh, element)) {
       const Vector from = minus(mesh.positions[std::size_t(node)], plane.origin);
       off = std::max(off, std::abs(dot(from, unit(area))));
       size = std::max(size, norm(from));
@@ -400,7 +400,7 @@ Outline outline_of(const Mesh& mesh, const ElementOfMesh& element, const Plane& 
 }
 
 /// By the number of sides that a ray from the point meets.
-bool contains(const Outline& outline, const PlanePoint& x)
+bool encloses(const Outline& outline, const PlanePoint& x)
 {
   bool is_inside = false;
   for (std::size_t i = 0; i < outline.points.size(); ++i) {
@@ -421,7 +421,7 @@ std::vector<PlanePoint> inner_points(const Outline& outline)
   std::vector<PlanePoint> points{middle};
   for (const PlanePoint& x : outline.points)
     points.push_back({0.5 * (x[0] + middle[0]), 0.5 * (x[1] + middle[1])});
-  std::erase_if(points, [&](const PlanePoint& x) { return !contains(outline, x); });
+  std::erase_if(points, [&](const PlanePoint& x) { return !encloses(outline, x); });
   return points;
 }
 
@@ -476,7 +476,7 @@ void add_overlaps_in_plane(const Mesh& mesh, const std::vector<ElementOfMesh>& e
   for (const Outline& outline : outlines) {
     for (const PlanePoint& x : inner_points(outline)) {
       grid.for_near(x, [&](const Outline& other) {
-        if (other.element == outline.element || !contains(other, x)) return;
+        if (other.element == outline.element || !encloses(other, x)) return;
         if (!have_the_same_nodes(mesh, outline.element, other.element))
           found.insert(ordered(outline.element, other.element));
       });

@@ -258,7 +258,7 @@ std::optional<Mesh> kept(const fs::path& path)
 }
 
 /// @return what is to be told
-std::string keep(const Mesh& mesh, const fs::path& path)
+std::string keep_for_later(const Mesh& mesh, const fs::path& path)
 {
   Packer packer;
   packer(digest_of_library(mesh));
@@ -304,7 +304,7 @@ Mesh kept_mesh(const MeshOptions& options, const std::function<Mesh()>& make)
   }
   Mesh mesh = make();
   const bool is_as_before = key_of(options, programs) == key;
-  mesh.notes.push_back(is_as_before ? keep(mesh, path)
+  mesh.notes.push_back(is_as_before ? keep_for_later(mesh, path)
                                     : "the mesh is not kept: its file was changed meanwhile");
   return mesh;
 }

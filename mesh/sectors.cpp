@@ -76,13 +76,13 @@ NodeGrid::Cell NodeGrid::cell(const std::array<double, 3>& x) const
 
 using Point = std::array<double, 3>;
 
-double distance(const Point& a, const Point& b)
+double distance_of_points(const Point& a, const Point& b)
 {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
 /// Corners of a surface element, in order around it.
-std::vector<int> corners(const ElementBlock& block, int element)
+std::vector<int> corner_nodes(const ElementBlock& block, int element)
 {
   std::vector<int> around;
   for (const int k : corner_places(block)) around.push_back(block.element_nodes(element)[k]);
@@ -98,7 +98,7 @@ std::vector<Segment> boundary(const Mesh& mesh)
   for (const ElementBlock& block : mesh.blocks) {
     if (!is_surface(block.shape)) continue;
     for (int e = 0; e < block.n_elements(); ++e) {
-      const std::vector<int> around = corners(block, e);
+      const std::vector<int> around = corner_nodes(block, e);
       for (std::size_t i = 0; i < around.size(); ++i) {
         const auto [a, b] = std::minmax(around[i], around[(i + 1) % around.size()]);
         ++uses[{a, b}];
@@ -116,13 +116,13 @@ double distance_to(const Mesh& mesh, const Segment& segment, const Point& x)
   const Point &a = mesh.positions[segment[0]], &b = mesh.positions[segment[1]];
   double along = 0.0;
   for (std::size_t c = 0; c < 3; ++c) along += (x[c] - a[c]) * (b[c] - a[c]);
-  const double length = distance(a, b);
+  const double length = distance_of_points(a, b);
   const double t = std::clamp(along / (length * length), 0.0, 1.0);
-  return distance(x,
-                  {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])});
+  return distance_of_points(
+      x, {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])});
 }
 
-std::string place(const Mesh& mesh, int node)
+std::string described_place(const Mesh& mesh, int node)
 {
   const Point& x = mesh.positions[node];
   return fmt::format("node {} ({:.6g}, {:.6g}, {:.6g})", mesh.node_numbers[node], x[0], x[1], x[2]);
@@ -132,7 +132,7 @@ double shortest(const Mesh& mesh, const std::vector<Segment>& segments)
 {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [a, b] : segments)
-    least = std::min(least, distance(mesh.positions[a], mesh.positions[b]));
+    least = std::min(least, distance_of_points(mesh.positions[a], mesh.positions[b]));
   return least;
 }
 
@@ -157,10 +157,11 @@ void refuse_edges_that_do_not_match(const Mesh& mesh, const std::vector<Segment>
     for (const int to : {1, -1}) {
       const Point x = turned(mesh.sectors, here, to);
       for (const Segment& segment : segments) {
-        const double length = distance(mesh.positions[segment[0]], mesh.positions[segment[1]]);
+        const double length =
+            distance_of_points(mesh.positions[segment[0]], mesh.positions[segment[1]]);
         if (distance_to(mesh, segment, x) > std::min(of_side * length, of_width * width)) continue;
-        const double miss = std::min(distance(mesh.positions[segment[0]], x),
-                                     distance(mesh.positions[segment[1]], x));
+        const double miss = std::min(distance_of_points(mesh.positions[segment[0]], x),
+                                     distance_of_points(mesh.positions[segment[1]], x));
         if (miss > largest) {
           largest = miss;
           worst = node;
@@ -173,7 +174,7 @@ void refuse_edges_that_do_not_match(const Mesh& mesh, const std::vector<Segment>
       "sectors = {}: the cut edges do not match: {}, turned by {:.6g} degrees, is {:.3g} m away "
       "from the next node of the other edge; make the second edge of the sector a copy of the "
       "first (in Gmsh: Periodic Curve ... Rotate)",
-      mesh.sectors.count, place(mesh, worst), 360.0 / mesh.sectors.count, largest));
+      mesh.sectors.count, described_place(mesh, worst), 360.0 / mesh.sectors.count, largest));
 }
 
 void refuse_wider_mesh(const Mesh& mesh, const std::vector<bool>& is_low)
@@ -183,7 +184,7 @@ void refuse_wider_mesh(const Mesh& mesh, const std::vector<bool>& is_low)
     throw Error(fmt::format(
         "sectors = {}: the mesh is wider than one sector of {:.6g} degrees: turned by that, {} "
         "meets a node, and that node meets one again; mesh one sector only, or correct the number",
-        mesh.sectors.count, 360.0 / mesh.sectors.count, place(mesh, low)));
+        mesh.sectors.count, 360.0 / mesh.sectors.count, described_place(mesh, low)));
   }
 }
 
@@ -247,7 +248,7 @@ void find_sector_edges(Mesh& mesh, int count)
   double largest_move = 0.0;
   for (const auto& [low, high] : mesh.sectors.pairs) {
     const Point x = turned(mesh.sectors, mesh.positions[low]);
-    largest_move = std::max(largest_move, distance(x, mesh.positions[high]));
+    largest_move = std::max(largest_move, distance_of_points(x, mesh.positions[high]));
     mesh.positions[high] = x;
   }
   if (largest_move > round_off * radius) {
@@ -449,7 +450,7 @@ std::optional<double> start_of_own_image(const Mesh& mesh, const NodeGrid& grid,
   return std::nullopt;
 }
 
-void keep(ElementBlock& block, const std::vector<int>& elements)
+void keep_elements(ElementBlock& block, const std::vector<int>& elements)
 {
   ElementBlock kept{.shape = block.shape,
                     .order = block.order,
@@ -501,7 +502,8 @@ Mesh one_sector(const Mesh& mesh, int count)
   if (const auto start = start_of_own_image(mesh, grid, count, cut); start && *start != 0.0)
     cut = cut_at(mesh, std::move(cut.turned), *start);
   Mesh sector = mesh;
-  for (std::size_t i = 0; i < mesh.blocks.size(); ++i) keep(sector.blocks[i], cut.chosen[i]);
+  for (std::size_t i = 0; i < mesh.blocks.size(); ++i)
+    keep_elements(sector.blocks[i], cut.chosen[i]);
   drop_unused_nodes(sector);
   find_sector_edges(sector, count);
   return sector;

@@ -34,11 +34,11 @@ namespace {
 constexpr const char* type_name = "blocklanczos";
 
 struct Options {
-  PetscInt block_size;      ///< as asked for; 0: what the subspace has room for
-  PetscReal keep;           ///< share of the surplus Ritz vectors that a restart keeps
-  PetscReal strictness;     ///< share of the tolerance that the recurrence must meet
-  bool has_eigenvalues;     ///< what `solve` leaves needs no transformation back
-  Certificate certificate;  ///< of the last interval
+  PetscInt block_size;              ///< as asked for; 0: what the subspace has room for
+  PetscReal keep;                   ///< share of the surplus Ritz vectors that a restart keeps
+  PetscReal strictness;             ///< share of the tolerance that the recurrence must meet
+  bool has_eigenvalues;             ///< what `solve` leaves needs no transformation back
+  plugin::Certificate certificate;  ///< of the last interval
 };
 
 Options* options_of(EPS eps)

@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 
 namespace {
 
-void broadcast(std::vector<double>& values, MPI_Comm comm)
+void broadcast_values(std::vector<double>& values, MPI_Comm comm)
 {
   auto n = static_cast<int>(values.size());
   MPI_Bcast(&n, 1, MPI_INT, 0, comm);
@@ -66,7 +66,7 @@ SupportedModes modes_everywhere(const Support& support, const ReducedModel& mode
   modes.are_all = numbers[0] == 1;
   modes.n_zero = numbers[1];
   modes.n_free_zero = numbers[2];
-  broadcast(modes.pairs.lambda, comm);
+  broadcast_values(modes.pairs.lambda, comm);
   if (petsc::rank(comm) != 0)
     modes.pairs.X = MatrixXd(model.K.rows(), std::ssize(modes.pairs.lambda));
   linear::broadcast_numbers(linear::values_of(modes.pairs.X), comm);

@@ -77,7 +77,7 @@ FixedInterfaceModes fixed_interface_modes(const linear::Factorization& K_ss, Mat
 
 namespace {
 
-constexpr double pair_gap = 1e-4;  // relative distance of frequencies of one cluster
+constexpr double cluster_gap = 1e-4;  // relative distance of frequencies of one cluster
 
 linear::EigenPairs converged_pairs(EPS eps, Mat M_ss, PetscInt n_modes)
 {
@@ -221,7 +221,8 @@ void ModeSearch::find(PetscInt n)
 
 PetscInt ModeSearch::complete_cluster(PetscInt n) const
 {
-  while (n > 0 && n < std::ssize(omega_) && omega_[n] - omega_[n - 1] < pair_gap * omega_[n]) ++n;
+  while (n > 0 && n < std::ssize(omega_) && omega_[n] - omega_[n - 1] < cluster_gap * omega_[n])
+    ++n;
   return n;
 }
 

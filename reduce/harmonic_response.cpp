@@ -79,7 +79,7 @@ bool solve_to_round_off(KSP solver, Mat E, Mat V)
 
 using Complex = std::complex<double>;
 
-petsc::Matrix free_block(Mat A, const FreeDofs& free)
+petsc::Matrix free_part(Mat A, const FreeDofs& free)
 {
   petsc::Matrix block;
   petsc::check(MatCreateSubMatrix(A, free.indices, free.indices, MAT_INITIAL_MATRIX, block.put()));
@@ -231,9 +231,9 @@ HarmonicResponse::HarmonicResponse(const HarmonicModel& model, const FreeDofs& f
       source_(std::move(source)),
       n_outputs_(std::ssize(outputs))
 {
-  const petsc::Matrix K = free_block(model.K, free), M = free_block(model.M, free);
-  const petsc::Matrix C = model.C == nullptr ? petsc::Matrix() : free_block(model.C, free);
-  const petsc::Matrix H = model.H == nullptr ? petsc::Matrix() : free_block(model.H, free);
+  const petsc::Matrix K = free_part(model.K, free), M = free_part(model.M, free);
+  const petsc::Matrix C = model.C == nullptr ? petsc::Matrix() : free_part(model.C, free);
+  const petsc::Matrix H = model.H == nullptr ? petsc::Matrix() : free_part(model.H, free);
   const petsc::Matrix undamped = union_of(K, M, C);
   const petsc::Matrix pattern = union_of(undamped, undamped, H);
   K_ = spread(K, pattern);

@@ -220,7 +220,7 @@ Members members(const std::vector<PetscInt>& rows, PetscInt first_row, IS among)
   return some;
 }
 
-std::vector<PetscInt> shifted(std::vector<PetscInt> numbers, PetscInt by)
+std::vector<PetscInt> numbers_shifted(std::vector<PetscInt> numbers, PetscInt by)
 {
   for (PetscInt& number : numbers) number += by;
   return numbers;
@@ -275,11 +275,11 @@ std::vector<linear::DecoupledPart> Flexibility::parts() const
     const Members masters = members(own, first_row, body_.dofs.masters),
                   slaves = members(own, first_row, body_.dofs.slaves);
     const std::vector<PetscInt> numbers = linear::gather_on_all(
-        shifted(masters.places, petsc::indices_before(body_.dofs.masters)), MPIU_INT, comm);
+        numbers_shifted(masters.places, petsc::indices_before(body_.dofs.masters)), MPIU_INT, comm);
     const petsc::IndexSet slave_numbers =
-        index_set(shifted(slaves.places, petsc::indices_before(body_.dofs.slaves)), comm);
+        index_set(numbers_shifted(slaves.places, petsc::indices_before(body_.dofs.slaves)), comm);
     const petsc::IndexSet master_numbers =
-        index_set(shifted(masters.places, petsc::indices_before(body_.dofs.masters)), comm);
+        index_set(numbers_shifted(masters.places, petsc::indices_before(body_.dofs.masters)), comm);
     auto part = std::make_shared<PartRows>();
     part->solve = linear::part_solver(body_.K_ss.factor(), slave_numbers);
     part->dofs = {.masters = index_set(masters.in_part, comm),

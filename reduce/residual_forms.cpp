@@ -21,7 +21,7 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 namespace {
 
-petsc::Matrix combined(Mat X, const MatrixXd& S)
+petsc::Matrix combination(Mat X, const MatrixXd& S)
 {
   petsc::Matrix XS = linear::uninitialized_dense(X, S.cols());
   petsc::check(MatZeroEntries(XS));
@@ -53,7 +53,7 @@ VectorXd stiffness_of_modes(const ReducedModel& model)
 
 /// The shapes less their share of the basis, made K-orthonormal.
 /// @param lambda  K_qq
-petsc::Matrix orthonormal(Mat shapes, Mat Phi, const VectorXd& lambda, Mat K)
+petsc::Matrix orthonormal_to_basis(Mat shapes, Mat Phi, const VectorXd& lambda, Mat K)
 {
   constexpr double dependent = 1e-6;  // of their lengths: what a Gram matrix resolves
   petsc::Matrix Z;
@@ -66,7 +66,7 @@ petsc::Matrix orthonormal(Mat shapes, Mat Phi, const VectorXd& lambda, Mat K)
   const std::vector<double> units(static_cast<std::size_t>(G.rows()), 1.0);
   const linear::Orthonormalisation o =
       linear::orthonormalisation(left, units, dependent, petsc::communicator(K));
-  return combined(Z, o.to_Q);
+  return combination(Z, o.to_Q);
 }
 
 std::vector<int> moving_masters(const GrowingBasis& basis)
@@ -173,7 +173,7 @@ petsc::Matrix ResidualForms::shapes(const MatrixXd& X, double s) const
 {
   const Index n_q = std::ssize(of_.model.omega);
   const MatrixXd X_m = X.topRows(X.rows() - n_q), X_q = X.bottomRows(n_q);
-  petsc::Matrix z = combined(Phi(), X_q);
+  petsc::Matrix z = combination(Phi(), X_q);
   petsc::Matrix u;
   petsc::check(MatDuplicate(z, MAT_COPY_VALUES, u.put()));
   linear::add_product(1.0, slaves_.Psi(), X_m(slaves_.masters(), every), u);
@@ -186,7 +186,8 @@ petsc::Matrix ResidualForms::shapes(const MatrixXd& X, double s) const
 void ResidualForms::append(Mat shapes)
 {
   ReducedModel& model = of_.model;
-  const petsc::Matrix Z = orthonormal(shapes, Phi(), stiffness_of_modes(model), slaves_.K_ss());
+  const petsc::Matrix Z =
+      orthonormal_to_basis(shapes, Phi(), stiffness_of_modes(model), slaves_.K_ss());
   const PetscInt k = linear::LocalRows(Z).n_cols();
   petsc::Matrix D = linear::sparse_product(slaves_.M_ss(), Z);
   MatrixXd above(model.M.rows(), k), H_above(H_.rows(), k);
@@ -233,7 +234,7 @@ void ResidualForms::make_ritz()
   }
   V.conservativeResize(n_q, std::ssize(omega));
   const MatrixXd P = linear::product(V.transpose(), model.M.bottomLeftCorner(n_q, n_m));
-  of_.Q_CB.modes = {.Phi = combined(all_shapes(), V), .omega = omega};
+  of_.Q_CB.modes = {.Phi = combination(all_shapes(), V), .omega = omega};
   model = join({.K = model.K.topLeftCorner(n_m, n_m), .R = model.R},
                model.M.topLeftCorner(n_m, n_m), P, std::move(omega));
 }

@@ -24,8 +24,8 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 namespace {
 
 /// X = (K_r - Omega^2 M_r)^-1 F with some masters held, or still anyway.
-MatrixXd responses(const ReducedModel& model, const MatrixXd& F, double Omega,
-                   const std::vector<int>& held)
+MatrixXd reduced_responses(const ReducedModel& model, const MatrixXd& F, double Omega,
+                           const std::vector<int>& held)
 {
   MatrixXd X = MatrixXd::Zero(model.K.rows(), F.cols());
   const std::vector<int> free = all_but(held, model.K.rows());
@@ -157,7 +157,7 @@ Worst worst_of(const LoadedModel& of, const ResponseLoads& loads, double toleran
   }
   if (worst.error <= tolerance) return worst;
   worst.Omega = 0.5 * (loads.Omega[g_worst] + loads.Omega[g_worst + 1]);
-  const MatrixXd X = responses(of.model, loads.F, worst.Omega, of.still);
+  const MatrixXd X = reduced_responses(of.model, loads.F, worst.Omega, of.still);
   worst.motions =
       linear::product(X, combinations_above(of.forms.energy(X, worst.Omega * worst.Omega),
                                             tolerance * loads.size.col(g_worst),

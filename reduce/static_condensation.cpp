@@ -405,7 +405,7 @@ std::vector<CoupledRows> coupled_rows(const Blocks& K)
 }
 
 /// The rows of a dense matrix that are asked for.
-MatrixXd rows_of(const linear::LocalRows& X, std::span<const PetscInt> rows)
+MatrixXd chosen_rows(const linear::LocalRows& X, std::span<const PetscInt> rows)
 {
   MatrixXd some(std::ssize(rows), X.n_cols());
   for (PetscInt j = 0; j < X.n_cols(); ++j)
@@ -426,7 +426,7 @@ void add_correction(const CoupledRows& rows, Mat error, const MatrixXd& W, Mat P
   for (std::size_t first = 0; first < rows.slaves.size(); first += piece) {
     const auto some =
         std::span(rows.slaves).subspan(first).first(std::min(piece, rows.slaves.size() - first));
-    const MatrixXd correction = linear::product(rows_of(errors, some), W);
+    const MatrixXd correction = linear::product(chosen_rows(errors, some), W);
     for (Eigen::Index j = 0; j < W.cols(); ++j) {
       double* column = psi + std::size_t(rows.masters[j]) * ld;
       for (std::size_t i = 0; i < some.size(); ++i)

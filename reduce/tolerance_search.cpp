@@ -199,7 +199,7 @@ PetscInt ToleranceSearch::prediction() const
 
 namespace {
 
-constexpr PetscInt block_columns = 64;  // of the solves: bounds the memory
+constexpr PetscInt solved_columns = 64;  // of the solves: bounds the memory
 
 /// B_j = M_ss (Psi - Phi P)_j + M_sm,j of columns first .. last - 1.
 petsc::Matrix deflated_inertia(const GrowingModel::System& system, Mat Phi, const MatrixXd& P,
@@ -240,9 +240,9 @@ void GrowingModel::start_errors(Mat Phi)
   const auto n_m = static_cast<PetscInt>(M_G_.rows());
   n_first_ = static_cast<PetscInt>(P_.rows());
   G_ = MatrixXd::Zero(n_m, n_m);
-  for (PetscInt first = 0; first < n_m; first += block_columns) {
+  for (PetscInt first = 0; first < n_m; first += solved_columns) {
     linear::report_progress(double(first) / n_m);
-    const PetscInt last = std::min(first + block_columns, n_m);
+    const PetscInt last = std::min(first + solved_columns, n_m);
     const MatrixXd P = P_.middleCols(first, last - first);
     const petsc::Matrix B = deflated_inertia(system_, Phi, P, first);
     const petsc::Matrix Z = linear::uninitialized_dense(system_.M.ss, last - first);

@@ -89,7 +89,7 @@ struct Gram {
   MatrixXcd symmetric;  ///< W^T W
 };
 
-Gram gram(const MatrixXd& parts)
+Gram gram_of_parts(const MatrixXd& parts)
 {
   const Index l = parts.cols() / 2;
   const MatrixXd G = linear::product(parts.transpose(), parts);
@@ -182,7 +182,7 @@ VectorXd UnbalancedForces::bounds_in(const Disc& disc) const
 {
   constexpr double negligible = 1e-2;
   constexpr int most_terms = 30;
-  const Gram first = gram(amplitudes(disc.centre * disc.poles));
+  const Gram first = gram_of_parts(amplitudes(disc.centre * disc.poles));
   const Eigen::SelfAdjointEigenSolver<MatrixXcd> eigen(first.hermitian, Eigen::EigenvaluesOnly);
   const double length_0 = std::sqrt(std::max(eigen.eigenvalues().maxCoeff(), 0.0));
   const VectorXd lengths_0 = column_lengths(first.hermitian);
@@ -197,7 +197,7 @@ VectorXd UnbalancedForces::bounds_in(const Disc& disc) const
       lengths += rest_of_columns;
       break;
     }
-    const MatrixXcd hermitian = gram(amplitudes(term)).hermitian;
+    const MatrixXcd hermitian = gram_of_parts(amplitudes(term)).hermitian;
     length += norm_at_most(hermitian);
     lengths += column_lengths(hermitian);
     term.array() *= disc.radius * theta_.array() * disc.poles.array();

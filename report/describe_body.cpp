@@ -31,7 +31,7 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 void add_sets(TextTable& table, const std::vector<mbs_export::AttachmentSet>& sets)
 {
@@ -242,14 +242,13 @@ std::string describe_file(const std::filesystem::path& path)
 
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr Index most_lines = 20;
 
 void add_count(TextTable& table, const char* what, const mbs_export::ModeCount& count)
 {
   if (count.up_to == 0.0) return;
   table.rows.push_back(
-      {fmt::format("{} below {:.6g} Hz", what, count.up_to / two_pi),
+      {fmt::format("{} below {:.6g} Hz", what, count.up_to / (2.0 * pi)),
        fmt::format("{} expected, {} found, {} missing{}", count.expected, count.found,
                    count.missing(), count.missing() > 0 ? ": take more modes" : "")});
 }
@@ -299,9 +298,10 @@ TextTable quality_table(const mbs_export::Certificate& certificate)
   if (certificate.condition > 0.0)
     table.rows.push_back({"condition of K_ss", fmt::format("{:.1e}", certificate.condition)});
   if (const auto& responses = certificate.responses) {
-    table.rows.push_back({fmt::format("bound of the error of responses at {} up to {:.0f} Hz",
-                                      fmt::join(responses->loads, ", "), responses->up_to / two_pi),
-                          fmt::format("{:.1e}", responses->error)});
+    table.rows.push_back(
+        {fmt::format("bound of the error of responses at {} up to {:.0f} Hz",
+                     fmt::join(responses->loads, ", "), responses->up_to / (2.0 * pi)),
+         fmt::format("{:.1e}", responses->error)});
   }
   add_count(table, "fixed-interface modes", certificate.fixed_interface);
   add_count(table, "modes", certificate.range);
@@ -322,7 +322,7 @@ TextTable mode_table(const mbs_export::Certificate& certificate)
   const Eigen::VectorXd errors = mbs_export::estimated_errors(certificate);
   for (Index i = 0; i < std::min(most_lines, errors.size()); ++i) {
     table.rows.push_back({fmt::format("{}", i + 1),
-                          fmt::format("{:.4f}", certificate.frequencies[i] / two_pi),
+                          fmt::format("{:.4f}", certificate.frequencies[i] / (2.0 * pi)),
                           fmt::format("{:.2e}", errors[i])});
     if (has_bounds) {
       table.rows.back().push_back(

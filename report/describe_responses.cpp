@@ -17,18 +17,18 @@ using mbs_export::FrequencyResponses, mbs_export::MeasuredModes, mbs_export::Mod
 
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
+using std::numbers::pi;
 constexpr std::size_t most = 40;  // rows of a table
 
 /// A load, an output, and its largest amplitude.
-struct Found {
+struct FoundPeak {
   std::size_t load, output;
   Peak peak;
 };
 
-std::vector<Found> all_peaks(const FrequencyResponses& responses)
+std::vector<FoundPeak> all_peaks(const FrequencyResponses& responses)
 {
-  std::vector<Found> all;
+  std::vector<FoundPeak> all;
   for (std::size_t l = 0; l < responses.loads.size(); ++l)
     for (std::size_t o = 0; o < responses.outputs.size(); ++o)
       all.push_back({l, o, peak_of(responses, l, static_cast<Eigen::Index>(o))});
@@ -42,7 +42,7 @@ Json names_of(const std::vector<ResponsePoint>& points)
   return Json::array(names);
 }
 
-std::string unit_of_peak(const FrequencyResponses& responses, const Found& found)
+std::string unit_of_peak(const FrequencyResponses& responses, const FoundPeak& found)
 {
   return unit_of(responses.quantity, responses.outputs[found.output], responses.loads[found.load]);
 }
@@ -88,7 +88,7 @@ Peak peak_of(const FrequencyResponses& responses, std::size_t load, Eigen::Index
 {
   Eigen::Index at = 0;
   const double amplitude = responses.H[load].col(output).cwiseAbs().maxCoeff(&at);
-  return {.amplitude = amplitude, .f_Hz = responses.Omega[at] / two_pi};
+  return {.amplitude = amplitude, .f_Hz = responses.Omega[at] / (2.0 * pi)};
 }
 
 TextTable describe(const FrequencyResponses& responses)
@@ -99,8 +99,8 @@ TextTable describe(const FrequencyResponses& responses)
   table.rows.push_back({"damping", responses.damping, ""});
   add(table, "loss factor", responses.loss_factor, "");
   add_count(table, "frequencies", responses.Omega.size());
-  add(table, "first frequency", responses.Omega[0] / two_pi, "Hz");
-  add(table, "last frequency", responses.Omega[responses.Omega.size() - 1] / two_pi, "Hz");
+  add(table, "first frequency", responses.Omega[0] / (2.0 * pi), "Hz");
+  add(table, "last frequency", responses.Omega[responses.Omega.size() - 1] / (2.0 * pi), "Hz");
   add_count(table, "loads", std::ssize(responses.loads));
   add_count(table, "outputs", std::ssize(responses.outputs));
   if (!responses.measured.functions.empty())
@@ -114,15 +114,15 @@ TextTable describe(const FrequencyResponses& responses)
 
 TextTable list_peaks(const FrequencyResponses& responses)
 {
-  std::vector<Found> all = all_peaks(responses);
+  std::vector<FoundPeak> all = all_peaks(responses);
   const std::size_t n = all.size();
   if (n > most) {
     std::ranges::stable_sort(all, std::ranges::greater{},
-                             [](const Found& found) { return found.peak.amplitude; });
+                             [](const FoundPeak& found) { return found.peak.amplitude; });
     all.resize(most);
   }
   TextTable table{.header = {"output / load", "largest", "unit", "at, Hz"}, .rows = {}};
-  for (const Found& found : all) {
+  for (const FoundPeak& found : all) {
     table.rows.push_back({printable(fmt::format("{} / {}", responses.outputs[found.output].name,
                                                 responses.loads[found.load].name)),
                           fmt::format("{:.6g}", found.peak.amplitude),
@@ -154,7 +154,7 @@ TextTable list_measured(const FrequencyResponses& responses)
 std::vector<Json::Member> responses_json(const FrequencyResponses& responses)
 {
   std::vector<Json> peaks;
-  for (const Found& found : all_peaks(responses)) {
+  for (const FoundPeak& found : all_peaks(responses)) {
     peaks.push_back(Json::object({{"load", responses.loads[found.load].name},
                                   {"output", responses.outputs[found.output].name},
                                   {"unit", unit_of_peak(responses, found)},
@@ -167,7 +167,7 @@ std::vector<Json::Member> responses_json(const FrequencyResponses& responses)
       {"quantity", name_of(responses.quantity)},
       {"damping", responses.damping},
       {"loss_factor", responses.loss_factor},
-      {"frequencies_Hz", Json::array({Json(first / two_pi), Json(last / two_pi)})},
+      {"frequencies_Hz", Json::array({Json(first / (2.0 * pi)), Json(last / (2.0 * pi))})},
       {"n_frequencies", responses.Omega.size()},
       {"loads", names_of(responses.loads)},
       {"outputs", names_of(responses.outputs)},

@@ -474,7 +474,7 @@ Json gradients_json(const squeal::Gradients& gradients)
 namespace {
 
 /// The least and the largest of the numbers of a column that are known.
-struct Range {
+struct SweptRange {
   std::size_t n = 0;
   double least = std::numeric_limits<double>::infinity();
   double largest = -std::numeric_limits<double>::infinity();
@@ -487,16 +487,16 @@ struct Range {
   }
 };
 
-std::vector<std::string> row_of(const std::string& name, const Range& range)
+std::vector<std::string> row_of(const std::string& name, const SweptRange& range)
 {
   if (range.n == 0) return {name, "", "", "0"};
   return {name, fmt::format("{:.6g}", range.least), fmt::format("{:.6g}", range.largest),
           fmt::format("{}", range.n)};
 }
 
-Range range_of(const squeal::SweepTable& sweep, Eigen::Index column)
+SweptRange range_of(const squeal::SweepTable& sweep, Eigen::Index column)
 {
-  Range range;
+  SweptRange range;
   for (Eigen::Index i = 0; i < sweep.results.rows(); ++i)
     if (sweep.known(i, column)) range.add(sweep.results(i, column));
   return range;
@@ -522,7 +522,7 @@ TextTable describe(const squeal::SweepTable& sweep)
 {
   TextTable table{.header = {"", "least", "largest", "variants"}, .rows = {}};
   for (std::size_t k = 0; k < sweep.keys.size(); ++k) {
-    Range range;
+    SweptRange range;
     for (const double value : sweep.values.col(static_cast<Eigen::Index>(k))) range.add(value);
     table.rows.push_back(row_of(printable(sweep.keys[k]), range));
   }

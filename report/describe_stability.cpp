@@ -74,7 +74,7 @@ std::string feeding(const StabilityBranch& branch)
                      100.0 * branch.work->friction);
 }
 
-Json branch_json(const StabilityTable& table, const StabilityBranch& branch)
+Json stability_branch_json(const StabilityTable& table, const StabilityBranch& branch)
 {
   std::vector<Json> unstable;
   for (const squeal::UnstableInterval& interval : branch.unstable)
@@ -161,7 +161,7 @@ Json stability_table_json(const StabilityTable& stability)
          {"in_plane", family.in_plane ? Json(*family.in_plane) : Json()}}));
   }
   for (const StabilityBranch& branch : stability.branches)
-    branches.push_back(branch_json(stability, branch));
+    branches.push_back(stability_branch_json(stability, branch));
   const auto& band = stability.band;
   return Json::object({{"parameter", stability.parameter},
                        {"method", stability.method.empty() ? "eigenvalues" : stability.method},

@@ -16,7 +16,7 @@ using squeal::ContactLaw;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
+constexpr double one_degree = std::numbers::pi / 180.0;
 
 /// Whether one ring serves both contact planes.
 enum class RingsOf { both_planes, each_plane };
@@ -105,7 +105,7 @@ std::optional<squeal::PadGrid> read_grid(const Table& pad, RingsOf of)
 {
   if (!pad.has("grid")) return std::nullopt;
   const Table table = pad.table("grid");
-  squeal::PadGrid grid{.sector = degree * table.number("sector_deg"),
+  squeal::PadGrid grid{.sector = one_degree * table.number("sector_deg"),
                        .points = table.integer("points")};
   if (table.has("rings")) read_grid_rings(grid, table, of);
   return grid;
@@ -156,7 +156,7 @@ squeal::PadPair read_pad(const Table& pad, RingsOf of)
 {
   const squeal::PadSpring spring = read_pad_spring(pad);
   const std::optional<squeal::PadBody> body = read_body_of_pad(pad);
-  return {.angle = degree * pad.number("angle_deg"),
+  return {.angle = one_degree * pad.number("angle_deg"),
           .stiffness = spring.linear,
           .damping = pad.number("damping"),
           .preload = pad.number("preload"),

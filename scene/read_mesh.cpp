@@ -345,7 +345,7 @@ mesh::HatDiscOptions read_hat_disc(const Table& mesh, Size size)
   return hat;
 }
 
-mesh::PadOptions read_pad(const Table& mesh, Size size)
+mesh::PadOptions read_pad_mesh(const Table& mesh, Size size)
 {
   mesh::PadOptions pad{};
   pad.inner_radius = mesh.number("inner_radius");
@@ -465,7 +465,7 @@ mesh::MeshOptions read_generator(const Table& mesh, Size size)
         [](const Table& t, Size s, mesh::MeshOptions& o) { o.annulus = read_annulus(t, s); }},
        {"hat_disc",
         [](const Table& t, Size s, mesh::MeshOptions& o) { o.hat_disc = read_hat_disc(t, s); }},
-       {"pad", [](const Table& t, Size s, mesh::MeshOptions& o) { o.pad = read_pad(t, s); }},
+       {"pad", [](const Table& t, Size s, mesh::MeshOptions& o) { o.pad = read_pad_mesh(t, s); }},
        {"rectangle",
         [](const Table& t, Size s, mesh::MeshOptions& o) { o.rectangle = read_rectangle(t, s); }},
        {"beam", [](const Table& t, Size s, mesh::MeshOptions& o) { o.beam = read_beam(t, s); }}});

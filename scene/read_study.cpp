@@ -151,7 +151,7 @@ std::optional<squeal::GrowthCase> read_growth(const Table& squeal)
 }
 
 /// squeal.wav
-std::optional<squeal::SoundCase> read_wav(const Table& squeal)
+std::optional<squeal::SoundCase> read_sound_case(const Table& squeal)
 {
   if (!squeal.has("wav")) return std::nullopt;
   const Table table = squeal.table("wav");
@@ -171,14 +171,14 @@ squeal::StudyOptions read_study(const Table& squeal, StudyOf of)
   study.gradients = read_gradients(squeal);
   study.critical = read_critical(squeal, of);
   study.stability = read_stability(squeal, study.speeds, of);
-  if (of == StudyOf::body) study.sound = read_wav(squeal);
+  if (of == StudyOf::body) study.sound = read_sound_case(squeal);
   return study;
 }
 
 namespace {
 
 /// Whether a brake of this kind has the parameter; the rigid disc has a thickness too.
-bool is_of(const squeal::ParameterRow& row, StudyOf of)
+bool is_of_study(const squeal::ParameterRow& row, StudyOf of)
 {
   using squeal::ParameterOf;
   if (row.of == ParameterOf::any) return true;
@@ -190,10 +190,10 @@ MapParameter read_parameter(const Table& table, std::string_view key, StudyOf of
 {
   const std::string word = table.text(key);
   const std::optional<MapParameter> parameter = squeal::parameter_of(word);
-  if (parameter && is_of(*squeal::find_parameter(parameter->name), of)) return *parameter;
+  if (parameter && is_of_study(*squeal::find_parameter(parameter->name), of)) return *parameter;
   std::vector<std::string> names;
   for (const squeal::ParameterRow& known : squeal::parameters)
-    if (is_of(known, of)) names.emplace_back(known.name);
+    if (is_of_study(known, of)) names.emplace_back(known.name);
   table.refuse(key, "must be one of " + quoted_list(names) +
                         "; that of one pad alone is called like \"pads[1].stiffness\"");
 }

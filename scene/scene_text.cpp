@@ -93,7 +93,7 @@ bool is_of_assembly(std::string_view table)
   return table == "part" || table == "joint" || table == "contact";
 }
 
-bool is_of(Step step, std::string_view key, const Values& values)
+bool is_of_step(Step step, std::string_view key, const Values& values)
 {
   const std::string_view table = key.substr(0, key.find_first_of(".["));
   switch (step) {
@@ -119,7 +119,7 @@ Values values_of(Step step, const toml::table& scene)
   Values all, some;
   collect(scene, "", all);
   for (const auto& [key, value] : all)
-    if (is_of(step, key, all)) some.emplace(key, value);
+    if (is_of_step(step, key, all)) some.emplace(key, value);
   return some;
 }
 

@@ -21,7 +21,7 @@ using Eigen::MatrixXd, Eigen::RowVectorXd;
 namespace {
 
 /// Of positions, relative to the outer radius.
-constexpr double placement = 1e-7;
+constexpr double face_placement = 1e-7;
 
 /// Places in an element of the corners of each face; see reference_faces.
 std::vector<std::vector<int>> corners_of_faces(const LagrangeBasis& basis)
@@ -30,9 +30,9 @@ std::vector<std::vector<int>> corners_of_faces(const LagrangeBasis& basis)
   std::vector<std::vector<int>> faces(static_cast<std::size_t>(dimension + 1));
   for (int i = 0; i < basis.nodes().rows(); ++i) {
     const auto xi = basis.nodes().row(i).array();
-    if (!((xi.abs() < placement) || ((xi - 1.0).abs() < placement)).all()) continue;
+    if (!((xi.abs() < face_placement) || ((xi - 1.0).abs() < face_placement)).all()) continue;
     for (int k = 0; k < dimension; ++k)
-      if (xi[k] < placement) faces[std::size_t(k)].push_back(i);
+      if (xi[k] < face_placement) faces[std::size_t(k)].push_back(i);
     if (xi.sum() > 0.5) faces.back().push_back(i);
   }
   return faces;
@@ -77,7 +77,7 @@ double longest_edge(const AirMesh& mesh)
 /// @param sheet_radius  radius of a thin disc in the plane of symmetry, m; it belongs to the body
 AirMesh with_boundary(AirMesh mesh, double sheet_radius)
 {
-  const double limit = placement * mesh.outer_radius;
+  const double limit = face_placement * mesh.outer_radius;
   const int last = mesh.dimension() - 1;
   std::vector<char> outer(std::size_t(mesh.n_nodes())), symmetry(outer), axis(outer);
   for (int i = 0; i < mesh.n_nodes(); ++i) {

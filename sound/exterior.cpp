@@ -19,7 +19,7 @@ using Eigen::Index, Eigen::MatrixXcd, Eigen::MatrixXd, Eigen::VectorXd;
 namespace {
 
 using Complex = std::complex<double>;
-constexpr Complex i_unit{0.0, 1.0};
+constexpr Complex imaginary_unit{0.0, 1.0};
 
 /// Nodes whose pressure is not zero by the end of the layer, by antisymmetry or, for n > 0, on the
 /// axis.
@@ -78,7 +78,7 @@ MatrixXcd stretched_positions(const AirMesh& mesh, double k, const AbsorbingLaye
     x[last] -= mesh.centre;
     const double R = x.norm(), xi = (R - mesh.inner_radius) / d;
     if (xi < 1e-9) continue;
-    stretched.row(i) -= i_unit * (layer.alpha * std::pow(xi, layer.m + 1) / (k * R)) * x;
+    stretched.row(i) -= imaginary_unit * (layer.alpha * std::pow(xi, layer.m + 1) / (k * R)) * x;
   }
   return stretched;
 }
@@ -95,7 +95,7 @@ Exterior::Exterior(std::shared_ptr<const AirMesh> mesh, const Wave& wave,
 MatrixXcd Exterior::pressure(const MatrixXcd& v_n)
 {
   // integral of grad p . grad q - k^2 p q = i omega rho (integral of q v_n over the body)
-  const MatrixXcd load = i_unit * (wave_.omega * wave_.medium.density) *
+  const MatrixXcd load = imaginary_unit * (wave_.omega * wave_.medium.density) *
                          (surface_.trace.transpose().cast<Complex>() *
                           (surface_.weight.cast<Complex>().asDiagonal() * v_n));
   MatrixXcd p = MatrixXcd::Zero(mesh_->n_nodes(), v_n.cols());

@@ -53,7 +53,7 @@ struct Listener {
 
 /// Enough equal steps of the angle for rounding: the integrand is analytic in a strip whose width
 /// is the distance over the radius.
-int n_angles(const Field& field, const Listener& listener, const Vector3d& y)
+int n_angles_about(const Field& field, const Listener& listener, const Vector3d& y)
 {
   const double r = y[0], k_r = field.wave.k() * r;
   constexpr double digits = 36.0;  // exp(-36) = 2e-16
@@ -71,7 +71,7 @@ Influence circle_influence(const Field& field, const Listener& listener, const V
                            const Vector3d& n)
 {
   const Vector3d x(listener.x.head<2>().norm(), 0.0, listener.x[2]);
-  const int steps = n_angles(field, listener, y);
+  const int steps = n_angles_about(field, listener, y);
   Influence sum{};
   for (int i = 0; i <= steps / 2; ++i) {  // even in phi
     const double phi = 2.0 * pi * i / steps, c = std::cos(phi), s = std::sin(phi);

@@ -112,7 +112,7 @@ VectorXcd joined(const Tone& tone, const MatrixX3d& x, Evaluate evaluate)
 }
 
 /// Harmonics whose surface moves at all.
-std::vector<int> sounding(const Vibration& vibration, int n_harmonics)
+std::vector<int> sounding_harmonics(const Vibration& vibration, int n_harmonics)
 {
   std::vector<int> all;
   const double first = velocity_of(vibration, 1).norm();
@@ -126,14 +126,15 @@ std::vector<int> sounding(const Vibration& vibration, int n_harmonics)
 std::vector<Tone> tones(const Source& source, const Vibration& vibration, int n_harmonics)
 {
   std::vector<Tone> all;
-  for (const int h : sounding(vibration, n_harmonics))
+  for (const int h : sounding_harmonics(vibration, n_harmonics))
     all.push_back(tone_of(source, plan_of(source, h * vibration.omega), vibration, h));
   return all;
 }
 
 void check_air(const Source& source, const Vibration& vibration, int n_harmonics)
 {
-  for (const int h : sounding(vibration, n_harmonics)) plan_of(source, h * vibration.omega);
+  for (const int h : sounding_harmonics(vibration, n_harmonics))
+    plan_of(source, h * vibration.omega);
 }
 
 std::optional<double> Accuracy::power() const

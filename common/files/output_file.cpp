@@ -52,7 +52,7 @@ bool has_name(int descriptor, const std::string& path)
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-[[noreturn]] void refuse(const std::string& target, int reason)
+[[noreturn]] void refuse_output(const std::string& target, int reason)
 {
   throw Error(
       fmt::format("{}: cannot be written ({}); does its folder exist, may you write there, and is "
@@ -89,7 +89,7 @@ void OutputLock::acquire(const std::string& target)
   do {
     if (descriptor_ >= 0) close(descriptor_);
     descriptor_ = open_lock(path_);
-    if (descriptor_ < 0) refuse(target, errno);
+    if (descriptor_ < 0) refuse_output(target, errno);
     is_held_ = flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
     if (!is_held_ && errno == EWOULDBLOCK) {
       close(descriptor_);
@@ -101,7 +101,7 @@ void OutputLock::acquire(const std::string& target)
   if (access(fs::path(target).parent_path().c_str(), W_OK | X_OK) == 0) return;
   const int reason = errno;
   close(descriptor_);
-  refuse(target, reason);
+  refuse_output(target, reason);
 }
 
 void OutputLock::try_room(const std::string& target) const
@@ -113,7 +113,7 @@ void OutputLock::try_room(const std::string& target) const
   if (reason != ENOSPC && reason != EDQUOT && reason != EFBIG) return;
   unlink(path_.c_str());
   close(descriptor_);
-  refuse(target, reason);
+  refuse_output(target, reason);
 }
 
 void OutputLock::remove_orphans(const fs::path& target) const
@@ -132,7 +132,7 @@ void OutputLock::remove_orphans(const fs::path& target) const
 std::string temporary_name(const std::string& path)
 {
   std::uint64_t number = 0;
-  if (getentropy(&number, sizeof number) != 0) refuse(path, errno);
+  if (getentropy(&number, sizeof number) != 0) refuse_output(path, errno);
   return fmt::format("{}.tmp-{:0{}x}", path, number >> 16U, n_digits);
 }
 

@@ -30,7 +30,7 @@ bool is_permutation_of_all(std::vector<idx_t> places)
   return true;
 }
 
-[[noreturn]] void refuse(std::ptrdiff_t n_blocks, std::ptrdiff_t n_edges)
+[[noreturn]] void refuse_size(std::ptrdiff_t n_blocks, std::ptrdiff_t n_edges)
 {
   throw Error(
       fmt::format("elimination_order: METIS finds no order of {} blocks with {} edges; take "
@@ -56,7 +56,7 @@ std::vector<idx_t> dissect(const Adjacency& graph, std::vector<idx_t> weights)
   const int status = METIS_NodeND(&n, starts.data(), neighbours.data(), weights.data(),
                                   options.data(), order.data(), place.data());
   if (status != METIS_OK || !is_permutation_of_all(place))
-    refuse(std::ssize(place), std::ssize(neighbours));
+    refuse_size(std::ssize(place), std::ssize(neighbours));
   return place;
 }
 
@@ -151,7 +151,7 @@ std::vector<int> elimination_order(Mat A, IS rows)
     const std::vector<int> place = shared_dissection(graph, sizes, comm);
     return on_all_ranks(comm, [&]() -> std::vector<int> {
       if (petsc::rank(comm) != 0) return {};
-      if (place.empty()) refuse(graph.n_vertices(), std::ssize(graph.neighbours));
+      if (place.empty()) refuse_size(graph.n_vertices(), std::ssize(graph.neighbours));
       return row_places(place, block_of, sizes);
     });
   }
@@ -177,7 +177,7 @@ constexpr idx_t uneven = 30;
 constexpr idx_t separators_tried = 2;
 
 /// Some vertices of a graph, and the first of their places.
-struct Part {
+struct DissectedPart {
   std::vector<int> vertices;
   int first_place = 0;
 };
@@ -209,14 +209,14 @@ class SharedDissection {
   {}
 
   /// Numbers the vertices of a part, which all ranks of the communicator have.
-  void dissect(Part part, MPI_Comm comm)
+  void dissect(DissectedPart part, MPI_Comm comm)
   {
     if (petsc::size(comm) == 1) return dissect_alone(part);
     const std::vector<idx_t> side = separated(part, comm);
-    std::array<Part, 3> parts;  // two, and their separator
+    std::array<DissectedPart, 3> parts;  // two, and their separator
     for (std::size_t i = 0; i < side.size(); ++i)
       parts[std::size_t(side[i])].vertices.push_back(part.vertices[i]);
-    for (Part& some : parts) {
+    for (DissectedPart& some : parts) {
       some.first_place = part.first_place;
       part.first_place += static_cast<int>(some.vertices.size());
     }
@@ -233,7 +233,7 @@ class SharedDissection {
   bool has_failed() const { return has_failed_; }
 
  private:
-  PartGraph graph_of(const Part& part)
+  PartGraph graph_of(const DissectedPart& part)
   {
     PartGraph graph;
     for (std::size_t i = 0; i < part.vertices.size(); ++i)
@@ -249,14 +249,14 @@ class SharedDissection {
     return graph;
   }
 
-  void number(const Part& part)
+  void number(const DissectedPart& part)
   {
     int place = part.first_place;
     for (const int v : part.vertices) places_[std::size_t(v)] = place++;
   }
 
   /// 0 or 1 for each vertex, by its side, and 2 in the separator.
-  std::vector<idx_t> separated(const Part& part, MPI_Comm comm)
+  std::vector<idx_t> separated(const DissectedPart& part, MPI_Comm comm)
   {
     std::vector<idx_t> side(part.vertices.size(), 0);
     if (petsc::rank(comm) == 0) {
@@ -278,7 +278,7 @@ class SharedDissection {
     return side;
   }
 
-  void dissect_alone(const Part& part)
+  void dissect_alone(const DissectedPart& part)
   {
     PartGraph graph = graph_of(part);
     if (graph.neighbours.empty()) return number(part);  // METIS rejects it
@@ -308,7 +308,7 @@ std::vector<int> shared_dissection(const Adjacency& graph, const std::vector<int
                                    MPI_Comm comm)
 {
   SharedDissection dissection(graph, weights);
-  Part all;
+  DissectedPart all;
   for (int v = 0; v < graph.n_vertices(); ++v) all.vertices.push_back(v);
   MPI_Comm own = MPI_COMM_NULL;
   MPI_Comm_dup(comm, &own);

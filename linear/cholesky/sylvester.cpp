@@ -30,7 +30,7 @@ petsc::IndexSet free_rows(Mat K, std::vector<PetscInt> held)
   return set;
 }
 
-constexpr PetscInt root_on_one_rank = 13;  // ICNTL
+constexpr PetscInt icntl_root_on_one_rank = 13;  // ICNTL
 
 /// Keeps the last front on one rank: of one that ScaLAPACK shares among ranks MUMPS does not count
 /// the negative pivots.
@@ -44,14 +44,14 @@ void count_every_pivot(Mat factor, const OptionSource& source)
         "leave the option out",
         source.prefix, package));
   }
-  petsc::check(MatMumpsSetIcntl(factor, root_on_one_rank, 1));
+  petsc::check(MatMumpsSetIcntl(factor, icntl_root_on_one_rank, 1));
 }
 
 /// @throws chladni::Error when options had the last word.
 void check_every_pivot(Mat factor, const OptionSource& source)
 {
   PetscInt control = 0;
-  petsc::check(MatMumpsGetIcntl(factor, root_on_one_rank, &control));
+  petsc::check(MatMumpsGetIcntl(factor, icntl_root_on_one_rank, &control));
   if (control == 1) return;
   throw Error(
       fmt::format("-{}mat_mumps_icntl_13 {}: negative pivots are counted only where the last front "

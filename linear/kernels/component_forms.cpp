@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 
 namespace {
 
-constexpr PetscInt block_columns = 64;  // at a time: bounds the memory, enough for dgemm
+constexpr PetscInt form_columns = 64;  // at a time: bounds the memory, enough for dgemm
 
 /// Rows of this rank, and how many components a node has.
 struct Rows {
@@ -191,7 +191,7 @@ void copy_rows(const Rows& rows, const ColumnSource& T, std::vector<Group>& grou
 }
 
 /// Rows of a block of a matrix on this rank that have entries.
-std::vector<PetscInt> rows_with_entries(Mat A_rc)
+std::vector<PetscInt> coupled_rows(Mat A_rc)
 {
   PetscInt first = 0;
   petsc::check(MatGetOwnershipRange(A_rc, &first, nullptr));
@@ -226,11 +226,11 @@ MatrixXd block_form(const Group& r, Mat A, const Group& c, bool is_symmetric)
   const petsc::Matrix A_rc = own_submatrix(A, r.set, c.set);
   const SparseProduct product(A_rc);
   const Values X_r(r.values.get(), std::ssize(r.rows), std::ssize(r.columns));
-  const std::vector<PetscInt> rows = rows_with_entries(A_rc);
+  const std::vector<PetscInt> rows = coupled_rows(A_rc);
   const auto n = static_cast<PetscInt>(c.columns.size());
   MatrixXd form = MatrixXd::Zero(std::ssize(r.columns), n);
-  for (PetscInt first = 0; first < n; first += block_columns) {
-    const PetscInt last = std::min(first + block_columns, n);
+  for (PetscInt first = 0; first < n; first += form_columns) {
+    const PetscInt last = std::min(first + form_columns, n);
     const petsc::Matrix Y = uninitialized_dense(A_rc, last - first);
     product.apply(ColumnRange(c.X, first, last), Y);
     const LocalRows y(Y);

@@ -147,8 +147,8 @@ std::vector<PetscInt> joints(const Pieces& pieces, const std::vector<Edge>& edge
 }
 
 /// Sums and maxima over ranks of the rows in each of n sets.
-std::pair<std::vector<double>, std::vector<double>> sizes(const std::vector<PetscInt>& set_of_row,
-                                                          PetscInt n, MPI_Comm comm)
+std::pair<std::vector<double>, std::vector<double>> sizes_of_sets(
+    const std::vector<PetscInt>& set_of_row, PetscInt n, MPI_Comm comm)
 {
   std::vector<double> own(n, 0.0), sum(n), largest(n);
   for (const PetscInt set : set_of_row)
@@ -163,7 +163,7 @@ std::pair<std::vector<double>, std::vector<double>> sizes(const std::vector<Pets
 PetscInt unite_small_sets(std::vector<PetscInt>& set_of_row, PetscInt n, MPI_Comm comm)
 {
   constexpr double good_part = 1.0 / 16.0, uneven = 1.5;
-  const auto [sum, largest] = sizes(set_of_row, n, comm);
+  const auto [sum, largest] = sizes_of_sets(set_of_row, n, comm);
   const double all = std::accumulate(sum.begin(), sum.end(), 0.0);
   std::vector<PetscInt> alone, number(n, -1);
   for (PetscInt set = 0; set < n; ++set) {

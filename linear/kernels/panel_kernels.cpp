@@ -262,14 +262,16 @@ namespace {
 constexpr PetscInt chunk_rows = 256;  // eight columns of them take half of a first-level cache
 
 /// n rows of at most eight long columns side by side, and zeros for those that there are not.
-void pack(const double* columns, std::ptrdiff_t ld, PetscInt n, PetscInt n_columns, double* rows)
+void pack_panel(const double* columns, std::ptrdiff_t ld, PetscInt n, PetscInt n_columns,
+                double* rows)
 {
   std::array<const double*, panel_width> from{};
   for (PetscInt c = 0; c < n_columns; ++c) from[std::size_t(c)] = columns + c * ld;
   to_panel(std::span(from).first(std::size_t(n_columns)), {.n = n}, panel_width, rows);
 }
 
-void unpack(const double* rows, PetscInt n, PetscInt n_columns, double* columns, std::ptrdiff_t ld)
+void unpack_panel(const double* rows, PetscInt n, PetscInt n_columns, double* columns,
+                  std::ptrdiff_t ld)
 {
   std::array<double*, panel_width> to{};
   for (PetscInt c = 0; c < n_columns; ++c) to[std::size_t(c)] = columns + c * ld;
@@ -329,13 +331,13 @@ class Tiles {
   std::vector<double> filled_up_;  ///< [chunk_rows x 6] by columns
 };
 
-PetscInt n_panels(Eigen::Index n_columns)
+PetscInt n_panels_over(Eigen::Index n_columns)
 {
   return static_cast<PetscInt>((n_columns + panel_width - 1) / panel_width);
 }
 
 /// The columns of a panel.
-std::pair<PetscInt, PetscInt> columns_of(PetscInt panel, Eigen::Index n_columns)
+std::pair<PetscInt, PetscInt> columns_of_panel(PetscInt panel, Eigen::Index n_columns)
 {
   const PetscInt first = panel * panel_width;
   return {first, static_cast<PetscInt>(std::min<Eigen::Index>(panel_width, n_columns - first))};
@@ -349,7 +351,7 @@ void subtract(const LongColumns& X, const MatrixXd& S, Before before, double* Y,
 {
   const TileKernels& kernels = tile_kernels();
   Tiles tiles(X);
-  const PetscInt panels = n_panels(S.cols());
+  const PetscInt panels = n_panels_over(S.cols());
   const std::size_t panel_size = std::size_t(chunk_rows) * panel_width;
   const AlignedNumbers rows = aligned_numbers(panel_size * std::size_t(panels));
   const std::size_t n_factors = std::size_t(tiles.n()) * Tiles::size;
@@ -369,9 +371,9 @@ void subtract(const LongColumns& X, const MatrixXd& S, Before before, double* Y,
     const auto panel_of = [&](PetscInt p) { return rows.get() + std::size_t(p) * panel_size; };
     const auto columns = [&](PetscInt j) { return Y + first + j * leading_dimension; };
     for (PetscInt p = 0; p < panels; ++p) {
-      const auto [j, width] = columns_of(p, S.cols());
+      const auto [j, width] = columns_of_panel(p, S.cols());
       if (before == Before::kept)
-        pack(columns(j), leading_dimension, n, width, panel_of(p));
+        pack_panel(columns(j), leading_dimension, n, width, panel_of(p));
       else
         std::fill_n(panel_of(p), std::size_t(n) * panel_width, 0.0);
     }
@@ -380,8 +382,8 @@ void subtract(const LongColumns& X, const MatrixXd& S, Before before, double* Y,
         kernels.subtract_tall_transposed(values, ld, n, factors_of(t, p), panel_of(p));
     });
     for (PetscInt p = 0; p < panels; ++p) {
-      const auto [j, width] = columns_of(p, S.cols());
-      unpack(panel_of(p), n, width, columns(j), leading_dimension);
+      const auto [j, width] = columns_of_panel(p, S.cols());
+      unpack_panel(panel_of(p), n, width, columns(j), leading_dimension);
     }
   });
 }
@@ -392,7 +394,7 @@ MatrixXd tall_inner_product(const LongColumns& X, const LongColumns& Y)
 {
   const TileKernels& kernels = tile_kernels();
   Tiles tiles(X);
-  const PetscInt panels = n_panels(Y.n_columns);
+  const PetscInt panels = n_panels_over(Y.n_columns);
   const std::size_t panel_size = std::size_t(chunk_rows) * panel_width;
   const std::size_t n_sums = std::size_t(tiles.n()) * Tiles::size;
   const AlignedNumbers rows = aligned_numbers(panel_size * std::size_t(panels));
@@ -407,8 +409,9 @@ MatrixXd tall_inner_product(const LongColumns& X, const LongColumns& Y)
   for_chunks(X.n_rows, [&](PetscInt first, PetscInt n) {
     const auto panel_of = [&](PetscInt p) { return rows.get() + std::size_t(p) * panel_size; };
     for (PetscInt p = 0; p < panels; ++p) {
-      const auto [j, width] = columns_of(p, Y.n_columns);
-      pack(Y.values + first + j * Y.leading_dimension, Y.leading_dimension, n, width, panel_of(p));
+      const auto [j, width] = columns_of_panel(p, Y.n_columns);
+      pack_panel(Y.values + first + j * Y.leading_dimension, Y.leading_dimension, n, width,
+                 panel_of(p));
     }
     tiles.for_each(first, n, [&](PetscInt t, const double* values, std::ptrdiff_t ld) {
       for (PetscInt p = 0; p < panels; ++p)

@@ -313,9 +313,9 @@ class Selection {
 };
 
 /// Parts one behind the other of a piece of memory, those of widest numbers first.
-class Pieces {
+class MemoryPieces {
  public:
-  explicit Pieces(double* memory) : next_(reinterpret_cast<char*>(memory)) {}
+  explicit MemoryPieces(double* memory) : next_(reinterpret_cast<char*>(memory)) {}
   template <typename T>
   T* of(std::size_t n)
   {
@@ -371,7 +371,7 @@ petsc::Matrix sequential(Mat A, IS rows, IS columns, const std::string& folder)
   const std::vector<PetscInt> own_rows = petsc::own_rows(rows, A);
   const Selection some(A, own_rows, own_places(A, columns));
   std::unique_ptr<GrowingMemory> room = room_for(some.n_bytes(), folder, petsc::communicator(A));
-  Pieces pieces(room->get());
+  MemoryPieces pieces(room->get());
   const Selection::Target to{.values = pieces.of<PetscScalar>(some.n_entries()),
                              .columns = pieces.of<PetscInt>(some.n_entries()),
                              .starts = pieces.of<PetscInt>(own_rows.size() + 1)};
@@ -398,7 +398,7 @@ petsc::Matrix distributed(Mat A, IS rows, IS columns, const std::string& folder)
                          ghost_places(places, columns, {ghosts, std::size_t(n_ghosts)}));
   std::unique_ptr<GrowingMemory> room =
       room_for(here.n_bytes() + beside.n_bytes(), folder, petsc::communicator(A));
-  Pieces pieces(room->get());
+  MemoryPieces pieces(room->get());
   Selection::Target to{}, to_beside{};
   to.values = pieces.of<PetscScalar>(here.n_entries());
   to_beside.values = pieces.of<PetscScalar>(beside.n_entries());

@@ -154,7 +154,7 @@ petsc::Matrix BlockBasis::combine(const Eigen::MatrixXd& S) const
 namespace {
 
 /// What round-off in the columns of a block is relative to: their lengths before the projection.
-std::vector<double> sizes(const MatrixXd& G, const MatrixXd& taken)
+std::vector<double> sizes_of_columns(const MatrixXd& G, const MatrixXd& taken)
 {
   std::vector<double> lengths = column_lengths(taken);
   for (PetscInt j = 0; j < G.cols(); ++j) {
@@ -287,7 +287,7 @@ BlockBasis::Appended BlockBasis::append(Mat block)
     product_with_M_.apply(block, M_block);
     G = narrow_gram(block, M_block);
   }
-  const std::vector<double> lengths = sizes(G, h);
+  const std::vector<double> lengths = sizes_of_columns(G, h);
   give_back(std::move(second_last_M_));
   second_last_M_ = std::move(newest_M_);
   Joined joined = join(block, M_block, G, lengths);

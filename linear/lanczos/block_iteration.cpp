@@ -32,7 +32,7 @@ MatrixXd bordered(const MatrixXd& T, const MatrixXd& coefficients)
   return result;
 }
 
-PetscInt n_columns_of(Mat X)
+PetscInt n_vectors_of(Mat X)
 {
   PetscInt n = 0;
   petsc::check(MatGetSize(X, nullptr, &n));
@@ -71,8 +71,8 @@ PetscInt BlockIteration::append_random(PetscInt n, const BlockOperator& op)
   const PetscInt n_before = basis_.n_columns();
   while (basis_.n_columns() < n_before + n) {
     const petsc::Matrix Z = random_directions(n_before + n - basis_.n_columns());
-    if (n_columns_of(Z) == 0) break;
-    petsc::Matrix block = basis_.new_block(n_columns_of(Z));
+    if (n_vectors_of(Z) == 0) break;
+    petsc::Matrix block = basis_.new_block(n_vectors_of(Z));
     op(Z, basis_.times_mass(Z), block);
     // An operator may map to zero what is not in the basis.
     if (basis_.append(block).R.rows() == 0 && basis_.append(Z).R.rows() == 0) break;
@@ -86,7 +86,7 @@ PetscInt BlockIteration::append_random(PetscInt n, const BlockOperator& op)
 void BlockIteration::note_lost(const BlockOperator& op)
 {
   for (const petsc::Matrix& X : basis_.take_lost()) {
-    const petsc::Matrix Y = basis_.new_block(n_columns_of(X));
+    const petsc::Matrix Y = basis_.new_block(n_vectors_of(X));
     op(X, basis_.times_mass(X), Y);
     std::vector<double> squares = column_products(Y, basis_.times_mass(Y));
     broadcast_numbers(squares, basis_.comm());
@@ -110,15 +110,15 @@ void BlockIteration::start(const BlockOperator& op, Mat guesses, PetscInt n_gues
   // Exact guesses span a space that the operator does not leave, so that nothing else would be
   // found: each gets a share of a random vector.
   constexpr double random_share = 1e-3;
-  petsc::Matrix X = basis_.new_block(n_columns_of(guesses));
+  petsc::Matrix X = basis_.new_block(n_vectors_of(guesses));
   fill_with_random_numbers(X, n_random_);
-  n_random_ += n_columns_of(guesses);
+  n_random_ += n_vectors_of(guesses);
   normalise_columns(X, basis_.times_mass(X));
   petsc::check(MatScale(X, random_share));
   normalise_columns(guesses, basis_.times_mass(guesses));
   petsc::check(MatAXPY(X, 1.0, guesses, SAME_NONZERO_PATTERN));
   basis_.take_out_excluded(X);
-  petsc::Matrix block = basis_.new_block(n_columns_of(guesses));
+  petsc::Matrix block = basis_.new_block(n_vectors_of(guesses));
   op(X, basis_.times_mass(X), block);
   basis_.append(block);
   sequence_.n_guesses = n_guesses;

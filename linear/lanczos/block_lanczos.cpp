@@ -11,7 +11,7 @@ namespace chladni::linear {
 
 namespace {
 
-PetscInt size_of(Mat M)
+PetscInt order_of(Mat M)
 {
   PetscInt n = 0;
   petsc::check(MatGetSize(M, &n, nullptr));
@@ -53,7 +53,7 @@ BlockLanczos::BlockLanczos(Mat factor, Mat M, const BlockLanczosOptions& options
 BlockLanczos::BlockLanczos(BlockSolve solve, Mat M, const BlockLanczosOptions& options)
     : solve_(std::move(solve)),
       options_(options),
-      n_rows_(size_of(M)),
+      n_rows_(order_of(M)),
       op_([this](Mat, Mat MQ, Mat Y) {
         PetscInt n_columns = 0;
         petsc::check(MatGetSize(MQ, nullptr, &n_columns));

@@ -157,14 +157,14 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 namespace {
 
-constexpr std::int64_t version = 1;
+constexpr std::int64_t body_file_version = 1;
 constexpr auto frame =
     "axes and origin of the mesh; displacements relative to the undeformed body, small rotations "
     "as "
     "vectors";
 
 /// In the order of ModeKind.
-constexpr std::array kind_names{"rigid", "constrained", "interface"};
+constexpr std::array mode_kind_names{"rigid", "constrained", "interface"};
 
 /// Something that each mode does at the nodes of a ring.
 struct RingQuantity {
@@ -259,7 +259,7 @@ void write_modes(files::Writer& file, const ModalBody& body)
 {
   std::vector<std::string> kinds;
   for (const ModeKind kind : body.kinds)
-    kinds.push_back(kind_names[static_cast<std::size_t>(kind)]);
+    kinds.push_back(mode_kind_names[static_cast<std::size_t>(kind)]);
   file.write("modes/frequencies", body.omega, "rad/s");
   file.write("modes/kinds", kinds);
   if (body.C.size() > 0) file.write("modes/damping", body.C, "1/s");
@@ -293,16 +293,16 @@ VectorXd read_frequencies(const files::Reader& file, const std::string& name)
   return omega;
 }
 
-std::vector<ModeKind> read_kinds(const files::Reader& file, Index n_modes)
+std::vector<ModeKind> read_mode_kinds(const files::Reader& file, Index n_modes)
 {
   std::vector<ModeKind> kinds;
   for (const std::string& name : file.texts("modes/kinds")) {
-    const auto found = std::ranges::find(kind_names, name);
-    if (found == kind_names.end()) {
+    const auto found = std::ranges::find(mode_kind_names, name);
+    if (found == mode_kind_names.end()) {
       file.fail("modes/kinds",
-                fmt::format("has '{}', expected {}", name, fmt::join(kind_names, ", ")));
+                fmt::format("has '{}', expected {}", name, fmt::join(mode_kind_names, ", ")));
     }
-    kinds.push_back(static_cast<ModeKind>(found - kind_names.begin()));
+    kinds.push_back(static_cast<ModeKind>(found - mode_kind_names.begin()));
   }
   if (Index(kinds.size()) != n_modes)
     file.fail("modes/kinds", fmt::format("has {} values for {} modes", kinds.size(), n_modes));
@@ -363,7 +363,7 @@ void write_body(const std::string& path, const ModalBody& body)
 {
   files::Writer file(path);
   file.attribute("/", "format", body_format);
-  file.attribute("/", "version", version);
+  file.attribute("/", "version", body_file_version);
   file.attribute("/", "title", body.title);
   file.attribute("/", "frame", frame);
   file_parts::write_attachment(file, body.attachment_nodes, body.sets);
@@ -399,7 +399,7 @@ ModalBody read_body(const std::string& path)
 
 ModalBody read_body(const files::Reader& file)
 {
-  file.expect_format(body_format, version);
+  file.expect_format(body_format, body_file_version);
   auto [nodes, sets] = file_parts::read_attachment(file);
   VectorXd omega = read_frequencies(file, "modes/frequencies");
   VectorXd free_frequencies = read_frequencies(file, "free_body/frequencies");
@@ -412,7 +412,7 @@ ModalBody read_body(const files::Reader& file)
   if (file.contains("modes/structural_damping"))
     H = file.matrix("modes/structural_damping", {n, n});
   return {.title = file.text_attribute("/", "title"),
-          .kinds = read_kinds(file, n),
+          .kinds = read_mode_kinds(file, n),
           .omega = std::move(omega),
           .C = std::move(C),
           .H = std::move(H),
@@ -488,7 +488,7 @@ void write_reduced(const std::string& path, const ReducedSystem& reduced)
 {
   files::Writer file(path);
   file.attribute("/", "format", reduced_format);
-  file.attribute("/", "version", version);
+  file.attribute("/", "version", body_file_version);
   file.attribute("/", "title", reduced.title);
   file_parts::write_attachment(file, reduced.attachment_nodes, reduced.sets);
   std::vector<int> nodes, components;
@@ -526,7 +526,7 @@ ReducedSystem read_reduced(const std::string& path)
 
 ReducedSystem read_reduced(const files::Reader& file)
 {
-  file.expect_format(reduced_format, version);
+  file.expect_format(reduced_format, body_file_version);
   auto [nodes, sets] = file_parts::read_attachment(file);
   auto masters = has_ring_masters(file) ? read_ring_masters(file, Index(nodes.size()), sets)
                                         : read_node_masters(file, Index(nodes.size()));

@@ -278,25 +278,25 @@ using Eigen::Index;
 namespace {
 
 /// A DOF of a node, cos(n phi) or sin(n phi) of a ring.
-constexpr std::array kind_names{"node", "cosine", "sine"};
+constexpr std::array master_kind_names{"node", "cosine", "sine"};
 
-std::size_t kind_of(const MasterDof& dof)
+std::size_t kind_of_master(const MasterDof& dof)
 {
   if (!dof.harmonic) return 0;
   return dof.harmonic->is_sine ? 2 : 1;
 }
 
-/// Index in `kind_names`.
-std::vector<int> read_kinds(const files::Reader& file)
+/// Index in `master_kind_names`.
+std::vector<int> read_master_kinds(const files::Reader& file)
 {
   std::vector<int> kinds;
   for (const std::string& name : file.texts("masters/kind")) {
-    const auto found = std::ranges::find(kind_names, name);
-    if (found == kind_names.end()) {
+    const auto found = std::ranges::find(master_kind_names, name);
+    if (found == master_kind_names.end()) {
       file.fail("masters/kind",
-                fmt::format("has '{}', expected {}", name, fmt::join(kind_names, ", ")));
+                fmt::format("has '{}', expected {}", name, fmt::join(master_kind_names, ", ")));
     }
-    kinds.push_back(static_cast<int>(found - kind_names.begin()));
+    kinds.push_back(static_cast<int>(found - master_kind_names.begin()));
   }
   return kinds;
 }
@@ -327,7 +327,7 @@ void write_ring_masters(files::Writer& file, const ReducedSystem& reduced)
   std::vector<std::string> kinds;
   std::vector<int> rings, orders;
   for (const MasterDof& dof : reduced.masters) {
-    kinds.emplace_back(kind_names[kind_of(dof)]);
+    kinds.emplace_back(master_kind_names[kind_of_master(dof)]);
     rings.push_back(dof.harmonic ? dof.harmonic->set : -1);
     orders.push_back(dof.harmonic ? dof.harmonic->order : -1);
   }
@@ -347,7 +347,7 @@ bool has_ring_masters(const files::Reader& file)
 std::vector<MasterDof> read_ring_masters(const files::Reader& file, Index n_nodes,
                                          const std::vector<AttachmentSet>& sets)
 {
-  const std::vector<int> kinds = read_kinds(file);
+  const std::vector<int> kinds = read_master_kinds(file);
   std::vector<char> is_node, is_ring;
   for (const int kind : kinds) {
     is_node.push_back(kind == 0 ? 1 : 0);

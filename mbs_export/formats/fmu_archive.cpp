@@ -53,7 +53,7 @@ void append(std::string& bytes, std::uint32_t number)
   append(bytes, static_cast<std::uint16_t>(number >> 16));
 }
 
-std::uint32_t size_of(std::size_t n, const std::string& name)
+std::uint32_t zip_size(std::size_t n, const std::string& name)
 {
   if (n < std::numeric_limits<std::uint32_t>::max()) return static_cast<std::uint32_t>(n);
   throw Error(fmt::format("{}: with it the archive has 4 GiB, more than a zip holds", name));
@@ -90,9 +90,9 @@ std::string fields(const ZipEntry& entry, std::size_t n_packed)
   append(bytes, first_of_january_1980);
   append(bytes,
          static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(entry.bytes.data()),
-                                          size_of(entry.bytes.size(), entry.name))));
-  append(bytes, size_of(n_packed, entry.name));
-  append(bytes, size_of(entry.bytes.size(), entry.name));
+                                          zip_size(entry.bytes.size(), entry.name))));
+  append(bytes, zip_size(n_packed, entry.name));
+  append(bytes, zip_size(entry.bytes.size(), entry.name));
   append(bytes, static_cast<std::uint16_t>(entry.name.size()));
   append(bytes, std::uint16_t{0});  // no extra field
   return bytes;
@@ -109,7 +109,7 @@ std::string in_directory(const ZipEntry& entry, const std::string& of_entry, std
   append(bytes, std::uint16_t{0});  // first disk
   append(bytes, std::uint16_t{0});
   append(bytes, regular_file);
-  append(bytes, size_of(offset, entry.name));
+  append(bytes, zip_size(offset, entry.name));
   return bytes + entry.name;
 }
 
@@ -120,7 +120,7 @@ std::string zip_archive(const std::vector<ZipEntry>& entries)
 {
   std::string archive, directory;
   for (const ZipEntry& entry : entries) {
-    size_of(entry.bytes.size(), entry.name);
+    zip_size(entry.bytes.size(), entry.name);
     const std::string packed = raw_deflate(entry.bytes);
     const std::string of_entry = fields(entry, packed.size());
     directory += in_directory(entry, of_entry, archive.size());
@@ -128,12 +128,12 @@ std::string zip_archive(const std::vector<ZipEntry>& entries)
       archive += part;
   }
   const auto n = static_cast<std::uint16_t>(entries.size());
-  const std::uint32_t begin = size_of(archive.size(), "the directory");
+  const std::uint32_t begin = zip_size(archive.size(), "the directory");
   archive += directory + "PK\5\6";
   append(archive, std::uint32_t{0});  // first disk, twice
   append(archive, n);
   append(archive, n);
-  append(archive, size_of(directory.size(), "the directory"));
+  append(archive, zip_size(directory.size(), "the directory"));
   append(archive, begin);
   append(archive, std::uint16_t{0});  // no comment
   return archive;
@@ -158,7 +158,7 @@ fs::path library(const std::string& name)
       (CHLADNI_LIBEXEC_FOLDER / fs::path("chladni")).string()));
 }
 
-std::string bytes_of(const fs::path& path)
+std::string bytes_of_file(const fs::path& path)
 {
   std::ifstream file(path, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
@@ -186,7 +186,7 @@ std::string digest(const std::string& bytes)
   return fmt::format("{:016x}", digest.finish({begin + whole, bytes.size() - whole}));
 }
 
-std::vector<std::string> notes_on(const ModalBody& body, const FmuBody& made)
+std::vector<std::string> notes_on_fmu(const ModalBody& body, const FmuBody& made)
 {
   std::vector<std::string> notes;
   if (body.n_free_rigid > 0) {
@@ -226,7 +226,7 @@ std::string fmu_archive(const FmuParts& parts)
   const std::string binary =
       fmt::format("binaries/{}/{}.so", platform(parts.version), parts.identifier);
   return zip_archive({{.name = "modelDescription.xml", .bytes = parts.description},
-                      {.name = binary, .bytes = bytes_of(library(parts.library))},
+                      {.name = binary, .bytes = bytes_of_file(library(parts.library))},
                       {.name = "resources/" + parts.resource, .bytes = parts.model}});
 }
 
@@ -252,7 +252,7 @@ Fmu fmu(const ModalBody& body, const FmuOptions& options)
                                   .library = "chladni-fmu.so",
                                   .resource = chladni::fmu::model_file,
                                   .model = chladni::fmu::packed(made.model)}),
-          .notes = notes_on(body, made)};
+          .notes = notes_on_fmu(body, made)};
 }
 
 namespace {
@@ -275,7 +275,7 @@ std::string attribute(const std::string& text)
   return escaped;
 }
 
-const char* units =
+const char* unit_definitions =
     "  <UnitDefinitions>\n"
     "    <Unit name=\"s\"><BaseUnit s=\"1\"/></Unit>\n"
     "    <Unit name=\"N\"><BaseUnit kg=\"1\" m=\"1\" s=\"-2\"/></Unit>\n"
@@ -427,7 +427,7 @@ std::string fmu_description(const std::vector<FmuVariable>& variables,
              is_v2 ? "2.0" : "3.0", attribute(description.name),
              is_v2 ? "guid" : "instantiationToken", description.token,
              is_v2 ? " numberOfEventIndicators=\"0\"" : "") +
-         interfaces(description, version) + units +
+         interfaces(description, version) + unit_definitions +
          "  <LogCategories>\n    <Category name=\"logStatusError\"/>\n  </LogCategories>\n" +
          writer.model_variables() + writer.model_structure() + "</fmiModelDescription>\n";
 }

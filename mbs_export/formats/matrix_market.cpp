@@ -26,7 +26,7 @@ std::string symmetric_array(const MatrixXd& A, const char* what)
 }
 
 /// The sets that a node is in, "hub;track".
-std::string sets_of(const ReducedSystem& reduced, int node)
+std::string sets_of_node(const ReducedSystem& reduced, int node)
 {
   std::string names;
   for (const AttachmentSet& set : reduced.sets) {
@@ -58,8 +58,9 @@ std::string line_of(const ReducedSystem& reduced, const MasterDof& dof)
   }
   const AttachmentNode& node = reduced.attachment_nodes[static_cast<std::size_t>(dof.node)];
   const Eigen::Vector3d& x = node.position;
-  return fmt::format("node,{},{},{},,,{:.17g},{:.17g},{:.17g},", quoted(sets_of(reduced, dof.node)),
-                     node.number, of_node[c], x[0], x[1], x[2]);
+  return fmt::format("node,{},{},{},,,{:.17g},{:.17g},{:.17g},",
+                     quoted(sets_of_node(reduced, dof.node)), node.number, of_node[c], x[0], x[1],
+                     x[2]);
 }
 
 std::string list_of_coordinates(const ReducedSystem& reduced)

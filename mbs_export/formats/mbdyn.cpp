@@ -31,7 +31,7 @@ std::string rows(const MatrixXd& A)
   return text;
 }
 
-std::string header(const ModalBody& body, MbdynVersion version)
+std::string mbdyn_header(const ModalBody& body, MbdynVersion version)
 {
   const bool is_old = version == MbdynVersion::v1_7;
   return fmt::format(
@@ -131,7 +131,7 @@ std::string invariant_groups(const FloatingBody& floating)
 }
 
 /// The factors of MBDyn's record group 19 are those of `stiffening_loads`, counted from 1.
-std::string stiffening_group(const ModalBody& body)
+std::string stiffening_matrix_group(const ModalBody& body)
 {
   if (!body.stiffening || body.stiffening->loads.empty()) return "";
   const Stiffening& stiffening = *body.stiffening;
@@ -158,8 +158,9 @@ std::string mbdyn_fem(const FloatingBody& floating, MbdynVersion version)
         "body free (fixed = []), whose modes need no such coupling, or write for mbdyn-develop");
   }
   std::string text =
-      header(body, version) + node_groups(body) + mode_group(body) + matrix_groups(body);
-  if (version == MbdynVersion::develop) text += invariant_groups(floating) + stiffening_group(body);
+      mbdyn_header(body, version) + node_groups(body) + mode_group(body) + matrix_groups(body);
+  if (version == MbdynVersion::develop)
+    text += invariant_groups(floating) + stiffening_matrix_group(body);
   return text + "** END OF FILE\n";
 }
 

@@ -86,7 +86,7 @@ class SidText {
 };
 
 /// a~ with a~ b = a x b.
-Eigen::Matrix3d tilde(const Vector3d& a)
+Eigen::Matrix3d cross_matrix(const Vector3d& a)
 {
   Eigen::Matrix3d S;
   S << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
@@ -112,7 +112,7 @@ void add_node(SidText& sid, const ModalBody& body, std::size_t node, int number)
   sid.taylor("phi", {phi});
   sid.taylor("psi", {psi});
   sid.taylor("AP", {Eigen::Matrix3d::Identity(),
-                    for_each_mode(psi.cols(), [&](Index j) { return tilde(psi.col(j)); })});
+                    for_each_mode(psi.cols(), [&](Index j) { return cross_matrix(psi.col(j)); })});
   sid.line("end node");
 }
 
@@ -139,7 +139,7 @@ Taylor inertia(const MassIntegrals& integrals, SidDialect dialect)
 
 /// K_sigma q of a load is a force that the first order of its coefficients holds; zero where the
 /// body has no such matrix.
-MatrixXd stiffening_of(const ModalBody& body, const std::string& load)
+MatrixXd stiffening_under(const ModalBody& body, const std::string& load)
 {
   if (body.stiffening &&
       std::ranges::find(body.stiffening->loads, load) != body.stiffening->loads.end())
@@ -172,7 +172,7 @@ Taylor centrifugal(const ModalBody& body, SidDialect dialect)
   for (Index c = 0; c < 6; ++c) {
     const auto [k, l] = axes[std::size_t(c)];
     const MatrixXd of_mass = k == l ? MatrixXd(S(k, k) - M) : MatrixXd(S(k, l) + S(l, k));
-    const MatrixXd both = of_mass + stiffening_of(body, load_of_product(k, l));
+    const MatrixXd both = of_mass + stiffening_under(body, load_of_product(k, l));
     for (Index j = 0; j < n; ++j) {
       const Eigen::Matrix3d C4 = position_tilde_shape(integrals, j);
       O_e.M0(j, c) = k == l ? C4(k, k) : C4(k, l) + C4(l, k);
@@ -187,9 +187,9 @@ Taylor translational(const ModalBody& body)
 {
   const Index n = body.n_modes();
   Taylor C_t{.M0 = body.mass_integrals->displacement.transpose()};
-  const std::array<MatrixXd, 3> K{stiffening_of(body, "acceleration_x"),
-                                  stiffening_of(body, "acceleration_y"),
-                                  stiffening_of(body, "acceleration_z")};
+  const std::array<MatrixXd, 3> K{stiffening_under(body, "acceleration_x"),
+                                  stiffening_under(body, "acceleration_y"),
+                                  stiffening_under(body, "acceleration_z")};
   const auto is_zero = [](const MatrixXd& A) { return A.isZero(0.0); };
   if (std::ranges::all_of(K, is_zero)) return C_t;
   C_t.M1 = for_each_mode(n, [&](Index j) {
@@ -215,7 +215,7 @@ Rotational rotational(const FloatingBody& floating, const MassIntegrals& integra
                    .Gr = {MatrixXd(3, 3 * n)}};
   for (int c = 0; c < 3; ++c) {
     const MatrixXd cross = cross_product(integrals, c);
-    const MatrixXd K = stiffening_of(floating.body, stiffening_loads[6 + std::size_t(c)]);
+    const MatrixXd K = stiffening_under(floating.body, stiffening_loads[6 + std::size_t(c)]);
     for (Index m = 0; m < n; ++m) {
       terms.Cr.M1[std::size_t(m)].col(c) = cross.row(m).transpose() + K.col(m);
       terms.G_e.M0.col(3 * m + c) = 2.0 * cross.row(m).transpose();
@@ -238,7 +238,7 @@ Taylor in_order(const Taylor& block, SidGyroscopic order)
 }
 
 /// What readers would take for a value or an end of line is left out.
-std::string header(const ModalBody& body)
+std::string sid_header(const ModalBody& body)
 {
   std::string title = body.title.substr(0, 100);
   std::erase_if(title, [](unsigned char c) { return c == '=' || c < 32; });
@@ -295,7 +295,7 @@ std::string sid_fem(const FloatingBody& floating, const SidOptions& options)
   sid.taylor("Ke", {MatrixXd(body.omega.cwiseAbs2().asDiagonal())});
   sid.taylor("De", {body.C.size() > 0 ? body.C : MatrixXd::Zero(n, n)});
   sid.line("end modal");
-  return header(body) + "part\n" + sid.text() + "end part\n";
+  return sid_header(body) + "part\n" + sid.text() + "end part\n";
 }
 
 std::vector<int> unique_node_numbers(const std::vector<AttachmentNode>& nodes, int largest)

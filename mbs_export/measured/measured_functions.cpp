@@ -265,7 +265,8 @@ FileOfFunctions read_functions(const std::filesystem::path& path)
   return contents;
 }
 
-std::vector<std::string> notes_on(const std::string& file, const FileOfFunctions& contents)
+std::vector<std::string> notes_on_functions(const std::string& file,
+                                            const FileOfFunctions& contents)
 {
   std::vector<std::string> notes;
   for (const auto& [why, n] : contents.unsuitable)
@@ -365,7 +366,7 @@ MeasuredFunctions read_measured_functions(const std::filesystem::path& path,
                              .f_Hz = contents.functions.front().f_Hz,
                              .functions = {},
                              .nodes = places_of(path.string(), contents, metres),
-                             .notes = notes_on(path.string(), contents)};
+                             .notes = notes_on_functions(path.string(), contents)};
   for (const Function58& one : contents.functions)
     measured.functions.push_back(in_si(one, contents.geometry));
   return measured;

@@ -25,10 +25,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
+using std::numbers::pi;
 
 /// The rows of displacement or rotation by component: 0, 1.
-int kind_of(int component)
+int kind_of_component(int component)
 {
   return component < 3 ? 0 : 1;
 }
@@ -38,14 +38,14 @@ std::array<double, 2> largest_rows(const MatrixXd& motion)
 {
   std::array<double, 2> largest{};
   for (Index row = 0; row < motion.rows(); ++row) {
-    double& kind = largest[static_cast<std::size_t>(kind_of(static_cast<int>(row % 6)))];
+    double& kind = largest[static_cast<std::size_t>(kind_of_component(static_cast<int>(row % 6)))];
     kind = std::max(kind, motion.row(row).norm());
   }
   return largest;
 }
 
 /// What each mode does at some DOFs, [n_dofs x n_modes].
-MatrixXd rows_of(const ModalBody& body, const std::vector<ResponseDof>& dofs)
+MatrixXd motion_rows(const ModalBody& body, const std::vector<ResponseDof>& dofs)
 {
   constexpr double at_rest = 1e-9;
   const std::array<double, 2> largest = largest_rows(body.attachment_modes);
@@ -56,7 +56,7 @@ MatrixXd rows_of(const ModalBody& body, const std::vector<ResponseDof>& dofs)
       rows.row(i) += body.attachment_modes.row(6 * node + dof.component) /
                      static_cast<double>(dof.nodes.size());
     }
-    const double reference = largest[static_cast<std::size_t>(kind_of(dof.component))];
+    const double reference = largest[static_cast<std::size_t>(kind_of_component(dof.component))];
     if (rows.row(i).norm() > at_rest * reference) continue;
     throw ResponseOptionError(
         dof.key, fmt::format("no mode moves {}: it is held, is no part of the model, or the modes "
@@ -114,7 +114,7 @@ class DynamicStiffness {
         fmt::format("the range holds {:.9g} Hz, an undamped natural frequency (mode {}), where the "
                     "response has no bound; give damping (body.damping, response.loss_factor) or "
                     "other frequencies",
-                    Omega / two_pi, mode + 1));
+                    Omega / (2.0 * pi), mode + 1));
   }
 
   MatrixXcd solve_coupled(double Omega, const VectorXcd& d, const MatrixXd& B) const
@@ -189,16 +189,16 @@ VectorXd angular_frequencies(const FrequencyRange& range)
     const double f_Hz = range.spacing == Spacing::linear
                             ? range.from_Hz + part * (range.to_Hz - range.from_Hz)
                             : range.from_Hz * std::pow(range.to_Hz / range.from_Hz, part);
-    Omega[i] = two_pi * f_Hz;
+    Omega[i] = 2.0 * pi * f_Hz;
   }
-  Omega[Omega.size() - 1] = two_pi * range.to_Hz;
+  Omega[Omega.size() - 1] = 2.0 * pi * range.to_Hz;
   return Omega;
 }
 
 VectorXd angular_frequencies(const ResponseOptions& options)
 {
   if (!options.measurement) return angular_frequencies(options.range);
-  return two_pi * options.measurement->functions->f_Hz;
+  return 2.0 * pi * options.measurement->functions->f_Hz;
 }
 
 Complex rate_factor(ResponseQuantity quantity, double Omega)
@@ -250,7 +250,7 @@ FrequencyResponses frequency_responses(const ModalBody& body, const ResponseOpti
   const NamedNodes model{body.attachment_nodes, body.sets};
   const std::vector<ResponseDof> loads = response_loads(model, options.loads);
   const std::vector<ResponseDof> outputs = response_outputs(model, options.outputs);
-  const MatrixXd B = rows_of(body, loads).transpose(), U = rows_of(body, outputs);
+  const MatrixXd B = motion_rows(body, loads).transpose(), U = motion_rows(body, outputs);
   FrequencyResponses found{.title = body.title,
                            .model = options.model,
                            .quantity = options.quantity,
@@ -327,7 +327,7 @@ int nearest(const NamedNodes& model, const AttachmentSet& set, const KeyedPlace&
   return best;
 }
 
-std::vector<int> nodes_of(const NamedNodes& model, const KeyedPlace& asked)
+std::vector<int> asked_nodes(const NamedNodes& model, const KeyedPlace& asked)
 {
   const AttachmentSet& set = set_of(model, asked);
   if (!asked.place.near) return set.nodes;
@@ -374,7 +374,7 @@ std::vector<ResponseDof> response_loads(const NamedNodes& model,
   std::vector<ResponseDof> loads;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const KeyedPlace asked{places[i], fmt::format("loads[{}]", i + 1)};
-    const std::vector<int> nodes = nodes_of(model, asked);
+    const std::vector<int> nodes = asked_nodes(model, asked);
     for (const int component : asked.place.components) {
       const std::string name =
           nodes.size() == 1 ? name_of(model, asked, component, nodes.front())
@@ -393,7 +393,7 @@ std::vector<ResponseDof> response_outputs(const NamedNodes& model,
   std::vector<ResponseDof> outputs;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const KeyedPlace asked{places[i], fmt::format("outputs[{}]", i + 1)};
-    const std::vector<int> nodes = nodes_of(model, asked);
+    const std::vector<int> nodes = asked_nodes(model, asked);
     if (asked.place.measured_node && nodes.size() > 1) {
       throw ResponseOptionError(
           asked.key + ".measured_node",

@@ -19,7 +19,7 @@ using Eigen::Index, Eigen::MatrixXcd, Eigen::MatrixXd;
 
 namespace {
 
-constexpr std::int64_t version = 1;
+constexpr std::int64_t response_file_version = 1;
 
 void write_points(files::Writer& file, const std::string& group,
                   const std::vector<ResponsePoint>& points)
@@ -197,7 +197,7 @@ void write_responses(const std::filesystem::path& path, const FrequencyResponses
 {
   files::Writer file(path.string());
   file.attribute("/", "format", response_format);
-  file.attribute("/", "version", version);
+  file.attribute("/", "version", response_file_version);
   file.attribute("/", "title", responses.title);
   file.write("model", name_of(responses.model));
   file.write("quantity", name_of(responses.quantity));
@@ -225,7 +225,7 @@ FrequencyResponses read_responses(const files::Reader& file)
 {
   using enum ResponseModel;
   using enum ResponseQuantity;
-  file.expect_format(response_format, version);
+  file.expect_format(response_format, response_file_version);
   FrequencyResponses responses{
       .title = file.text_attribute("/", "title"),
       .model = read_word(file, "model", std::array{body, reduced, fe}),
@@ -256,7 +256,7 @@ FrequencyResponses read_responses(const files::Reader& file)
 namespace {
 
 /// A field of CSV: quotes are doubled.
-std::string quoted(const std::string& text)
+std::string quoted_cell(const std::string& text)
 {
   std::string field = "\"";
   for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -293,10 +293,10 @@ std::vector<ResponseColumn> response_columns(const FrequencyResponses& responses
 std::string csv_of(const FrequencyResponses& responses)
 {
   const std::vector<ResponseColumn> columns = response_columns(responses);
-  std::string text = quoted("frequency, Hz");
+  std::string text = quoted_cell("frequency, Hz");
   for (const ResponseColumn& column : columns)
     for (const char* part : {"re", "im"})
-      text += ',' + quoted(fmt::format("{} {}, {}", column.name, part, column.unit));
+      text += ',' + quoted_cell(fmt::format("{} {}, {}", column.name, part, column.unit));
   text += "\n";
   const auto end = std::back_inserter(text);
   for (Eigen::Index f = 0; f < responses.Omega.size(); ++f) {
@@ -310,7 +310,7 @@ std::string csv_of(const FrequencyResponses& responses)
 
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
+using std::numbers::pi;
 
 /// Specific data types of dataset 58.
 constexpr int displacement = 8, velocity = 11, acceleration = 12, excitation_force = 13,
@@ -328,7 +328,7 @@ std::string units()
                                   "SI: m, N", 2, 1.0, 1.0, 1.0, celsius));
 }
 
-std::string nodes_of(const FrequencyResponses& responses)
+std::string node_dataset(const FrequencyResponses& responses)
 {
   std::map<std::int64_t, Eigen::Vector3d> nodes;
   for (const auto* const points : {&responses.loads, &responses.outputs})
@@ -361,10 +361,10 @@ std::string unit_of_motion(ResponseQuantity quantity, const ResponsePoint& outpu
 }
 
 /// Five lines of words, DOFs, the frequencies and the axes.
-std::string header(const FrequencyResponses& responses, const ResponsePoint& output,
-                   const ResponsePoint& load, bool is_even)
+std::string function_header(const FrequencyResponses& responses, const ResponsePoint& output,
+                            const ResponsePoint& load, bool is_even)
 {
-  const Eigen::VectorXd f_Hz = responses.Omega / two_pi;
+  const Eigen::VectorXd f_Hz = responses.Omega / (2.0 * pi);
   std::string text = fmt::format(
       "{:.80}\n{:.80}\nNONE\n{:.80}\n{:.80}\n", output.name + " / " + load.name,
       responses.title.empty() ? "NONE" : responses.title,
@@ -398,7 +398,7 @@ std::string values(const FrequencyResponses& responses, const Eigen::VectorXcd& 
   std::string text;
   const auto end = std::back_inserter(text);
   for (Index f = 0; f < H.size(); ++f) {
-    if (!is_even) fmt::format_to(end, "{:13.5E}", responses.Omega[f] / two_pi);
+    if (!is_even) fmt::format_to(end, "{:13.5E}", responses.Omega[f] / (2.0 * pi));
     fmt::format_to(end, "{:20.11E}{:20.11E}", H[f].real(), H[f].imag());
     if (!is_even || f % 2 == 1 || f + 1 == H.size()) text += '\n';
   }
@@ -417,11 +417,12 @@ std::string universal_file_of(const FrequencyResponses& responses)
                     load.name));
   }
   const bool is_even = is_evenly_spaced(responses.Omega);
-  std::string text = units() + nodes_of(responses);
+  std::string text = units() + node_dataset(responses);
   for (std::size_t l = 0; l < responses.loads.size(); ++l) {
     for (std::size_t o = 0; o < responses.outputs.size(); ++o) {
-      text += dataset(58, header(responses, responses.outputs[o], responses.loads[l], is_even) +
-                              values(responses, responses.H[l].col(Index(o)), is_even));
+      text += dataset(
+          58, function_header(responses, responses.outputs[o], responses.loads[l], is_even) +
+                  values(responses, responses.H[l].col(Index(o)), is_even));
     }
   }
   return text;

@@ -21,14 +21,14 @@ using std::numbers::pi;
 namespace {
 
 /// What an element type is, by its number of nodes; lines have two or three.
-struct Type {
+struct AbaqusType {
   Shape shape;
   std::size_t n_nodes;
 };
 
-const std::unordered_map<std::string, Type>& types()
+const std::unordered_map<std::string, AbaqusType>& abaqus_types()
 {
-  static const std::unordered_map<std::string, Type> all{
+  static const std::unordered_map<std::string, AbaqusType> all{
       {"S3", {Shape::triangle, 3}},      {"S3R", {Shape::triangle, 3}},
       {"S4", {Shape::quadrilateral, 4}}, {"S4R", {Shape::quadrilateral, 4}},
       {"S6", {Shape::triangle, 6}},      {"STRI65", {Shape::triangle, 6}},
@@ -37,9 +37,9 @@ const std::unordered_map<std::string, Type>& types()
   return all;
 }
 
-class Reader {
+class AbaqusReader {
  public:
-  explicit Reader(std::span<const Keyword> keywords)
+  explicit AbaqusReader(std::span<const Keyword> keywords)
       : keywords_(keywords), sets_(abaqus_sets(keywords))
   {}
 
@@ -54,7 +54,7 @@ class Reader {
   }
 
  private:
-  using ReadKeyword = void (Reader::*)(const Keyword&);
+  using ReadKeyword = void (AbaqusReader::*)(const Keyword&);
 
   void note_steps()
   {
@@ -79,11 +79,11 @@ class Reader {
   void read(const Keyword& keyword)
   {
     static const std::unordered_map<std::string, ReadKeyword> readers{
-        {"NODE", &Reader::nodes},
-        {"ELEMENT", &Reader::elements},
-        {"SURFACE", &Reader::surface},
-        {"INSTANCE", &Reader::instance},
-        {"BOUNDARY", &Reader::boundary}};
+        {"NODE", &AbaqusReader::nodes},
+        {"ELEMENT", &AbaqusReader::elements},
+        {"SURFACE", &AbaqusReader::surface},
+        {"INSTANCE", &AbaqusReader::instance},
+        {"BOUNDARY", &AbaqusReader::boundary}};
     // Read elsewhere, or nothing to a mesh.
     static const std::set<std::string> known{
         "HEADING", "NSET",    "ELSET",    "SHELL SECTION", "BEAM SECTION", "MATERIAL",
@@ -121,11 +121,11 @@ class Reader {
     }
   }
 
-  static const Type& type_of(const Keyword& keyword)
+  static const AbaqusType& type_of(const Keyword& keyword)
   {
     const std::string& name = keyword.parameter("TYPE");
-    const auto type = types().find(name);
-    if (type != types().end()) return type->second;
+    const auto type = abaqus_types().find(name);
+    if (type != abaqus_types().end()) return type->second;
     if (name.starts_with("C3D")) {
       keyword.refuse(fmt::format(
           "{} is a solid element; Chladni has shells and beams: mesh the mid-surface with S3, S4R "
@@ -139,7 +139,7 @@ class Reader {
   void elements(const Keyword& keyword)
   {
     keyword.expect_only({"TYPE", "ELSET"});
-    const Type& type = type_of(keyword);
+    const AbaqusType& type = type_of(keyword);
     std::vector<std::int64_t> numbers;
     for (const KeywordRow& row : keyword.rows) {
       for (std::size_t i = 0; i < row.fields.size(); ++i)
@@ -155,7 +155,7 @@ class Reader {
     if (!numbers.empty()) keyword.refuse("its last element ends with a comma");
   }
 
-  void add_element(const Keyword& keyword, const KeywordRow& row, const Type& type,
+  void add_element(const Keyword& keyword, const KeywordRow& row, const AbaqusType& type,
                    const std::vector<std::int64_t>& numbers)
   {
     const std::int64_t number = numbers.front();
@@ -331,7 +331,7 @@ class Reader {
 
 Deck abaqus_deck(std::span<const Keyword> keywords)
 {
-  return Reader(keywords).read();
+  return AbaqusReader(keywords).read();
 }
 
 namespace {
@@ -342,7 +342,7 @@ struct ProfileMoments {
   double shear_factor;  ///< as Abaqus has it for this kind of profile
 };
 
-ProfileMoments rectangle(double a, double b)
+ProfileMoments rectangle_moments(double a, double b)
 {
   const double l = std::max(a, b), s = std::min(a, b), ratio = s / l;
   const double J = l * s * s * s * (1.0 / 3.0 - 0.21 * ratio * (1.0 - std::pow(ratio, 4) / 12.0));
@@ -363,7 +363,7 @@ ProfileMoments moments(const Keyword& section, const KeywordRow& row)
   if (kind != "RECT" && kind != "PIPE")
     section.refuse(fmt::format("the profile {} is not known; RECT, CIRC and PIPE are", kind));
   const double second = section.real(row, 1, "a length of the profile");
-  if (kind == "RECT") return rectangle(first, second);
+  if (kind == "RECT") return rectangle_moments(first, second);
   if (!(second < first)) section.refuse(row, "the wall of the pipe is thicker than its radius");
   return pipe(first, first - second, 0.53);
 }
@@ -387,9 +387,9 @@ std::optional<std::vector<int>> components_named(std::string_view name)
   return std::nullopt;
 }
 
-class Declarer {
+class AbaqusDeclarer {
  public:
-  Declarer(std::span<const Keyword> keywords, const Deck& deck, const DeckUnits& units)
+  AbaqusDeclarer(std::span<const Keyword> keywords, const Deck& deck, const DeckUnits& units)
       : model_(abaqus_model(keywords)), sets_(abaqus_sets(keywords)), units_(units), holders_(deck)
   {}
 
@@ -557,7 +557,7 @@ class Declarer {
 Declarations abaqus_declarations(std::span<const Keyword> keywords, const Deck& deck,
                                  const DeckUnits& units)
 {
-  return Declarer(keywords, deck, units).declare(deck);
+  return AbaqusDeclarer(keywords, deck, units).declare(deck);
 }
 
 namespace {
@@ -577,8 +577,8 @@ void generate_numbers(const Keyword& keyword, const KeywordRow& row,
   for (std::int64_t n = first; n <= last; n += step) numbers.push_back(n);
 }
 
-void add_row(const Keyword& keyword, const KeywordRow& row, const std::string& name,
-             std::map<std::string, std::vector<std::int64_t>>& sets)
+void add_set_row(const Keyword& keyword, const KeywordRow& row, const std::string& name,
+                 std::map<std::string, std::vector<std::int64_t>>& sets)
 {
   std::vector<std::int64_t> numbers;
   if (keyword.has("GENERATE")) generate_numbers(keyword, row, numbers);
@@ -631,13 +631,13 @@ AbaqusSets abaqus_sets(std::span<const Keyword> keywords)
       keyword.expect_only({"NSET", "GENERATE", "INTERNAL", "UNSORTED"});
       sets.nodes[keyword.parameter("NSET")];
       for (const KeywordRow& row : keyword.rows)
-        add_row(keyword, row, keyword.parameter("NSET"), sets.nodes);
+        add_set_row(keyword, row, keyword.parameter("NSET"), sets.nodes);
     }
     if (keyword.name == "ELSET") {
       keyword.expect_only({"ELSET", "GENERATE", "INTERNAL"});
       sets.elements[keyword.parameter("ELSET")];
       for (const KeywordRow& row : keyword.rows)
-        add_row(keyword, row, keyword.parameter("ELSET"), sets.elements);
+        add_set_row(keyword, row, keyword.parameter("ELSET"), sets.elements);
     }
   }
   return sets;

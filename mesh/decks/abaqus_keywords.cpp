@@ -76,7 +76,7 @@ KeywordRow row_of(const DeckLine& line)
 }
 
 /// The file that *INCLUDE, INPUT = FILE names.
-std::string included_file(std::string_view line)
+std::string file_of_include(std::string_view line)
 {
   const std::string text = trimmed(line);
   if (text.size() < 2 || text.front() != '*' || text[1] == '*') return "";
@@ -218,7 +218,7 @@ double Keyword::real_or(const KeywordRow& row, std::size_t i, std::string_view w
 
 std::vector<Keyword> abaqus_keywords(const std::string& text, const ReadIncluded& read)
 {
-  return flat_keywords(with_first_step(parsed(DeckLines(text, included_file, read))));
+  return flat_keywords(with_first_step(parsed(DeckLines(text, file_of_include, read))));
 }
 
 }  // namespace chladni::mesh

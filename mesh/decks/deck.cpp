@@ -374,7 +374,7 @@ const std::vector<std::int64_t>& nodes_of(const Deck& deck, const DeckCoupling& 
   return std::ranges::find(deck.groups, coupling.group, &DeckGroup::name)->nodes;
 }
 
-[[noreturn]] void refuse(const DeckCoupling& coupling, const std::string& why)
+[[noreturn]] void refuse_coupling(const DeckCoupling& coupling, const std::string& why)
 {
   throw Error(fmt::format("{}: {}", coupling.entry, why));
 }
@@ -385,7 +385,7 @@ std::array<double, 3> place_of(const Deck& deck, const DeckUnits& units,
 {
   const auto node = deck.nodes.find(coupling.reference);
   if (node == deck.nodes.end())
-    refuse(coupling, fmt::format("there is no node {}", coupling.reference));
+    refuse_coupling(coupling, fmt::format("there is no node {}", coupling.reference));
   std::array<double, 3> x = node->second;
   for (double& c : x) c *= units.length;
   return x;
@@ -396,15 +396,16 @@ DeclaredCoupling average(const Deck& deck, const DeckUnits& units, const Holders
 {
   const std::int64_t node = coupling.reference;
   if (holders.is_in_mesh(node)) {
-    refuse(coupling, fmt::format("its reference node {} belongs to an element or follows another "
-                                 "node; the mean of a scene moves a node of its own",
-                                 node));
+    refuse_coupling(coupling,
+                    fmt::format("its reference node {} belongs to an element or follows another "
+                                "node; the mean of a scene moves a node of its own",
+                                node));
   }
   if (holders.is_reference(node))
-    refuse(coupling, fmt::format("its reference node {} is that of another mean", node));
+    refuse_coupling(coupling, fmt::format("its reference node {} is that of another mean", node));
   for (const std::int64_t averaged : nodes_of(deck, coupling))
     if (!holders.is_in_mesh(averaged))
-      refuse(coupling, fmt::format("its node {} belongs to no element", averaged));
+      refuse_coupling(coupling, fmt::format("its node {} belongs to no element", averaged));
   return {.name = name_of_reference(node),
           .group = coupling.group,
           .kind = CouplingOfDeck::averaging,

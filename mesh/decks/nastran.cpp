@@ -25,9 +25,11 @@ constexpr const char* no_own_thickness =
     "a thickness of its own; a scene has it in the section, as a table or a formula";
 
 /// Of what becomes of the deck, by card.
-class Reader {
+class NastranReader {
  public:
-  explicit Reader(std::span<const Card> cards) : cards_(cards), systems_(nastran_systems(cards)) {}
+  explicit NastranReader(std::span<const Card> cards)
+      : cards_(cards), systems_(nastran_systems(cards))
+  {}
 
   Deck read()
   {
@@ -50,7 +52,7 @@ class Reader {
   }
 
  private:
-  using ReadCard = std::function<void(Reader&, const Card&)>;
+  using ReadCard = std::function<void(NastranReader&, const Card&)>;
   using Readers = std::unordered_map<std::string, ReadCard>;
 
   /// Every card that is known. Sections and materials are `nastran_declarations`'.
@@ -62,20 +64,21 @@ class Reader {
 
   static Readers make_readers()
   {
-    Readers all{{"SET1", &Reader::set1},    {"SPC", &Reader::held},
-                {"SPC1", &Reader::held},    {"PARAM", &Reader::parameter},
-                {"CONM2", &Reader::mass},   {"CELAS1", &Reader::spring},
-                {"CELAS2", &Reader::spring}};
-    for (const char* name : {"RBE2", "RBE3", "RBAR"}) all.emplace(name, &Reader::rigid);
-    for (const char* name : {"CQUAD4", "CTRIA3"}) all.emplace(name, &Reader::flat_shell);
-    for (const char* name : {"CQUAD8", "CTRIA6"}) all.emplace(name, &Reader::curved_shell);
-    for (const char* name : {"CBAR", "CBEAM"}) all.emplace(name, &Reader::beam);
+    Readers all{{"SET1", &NastranReader::set1},    {"SPC", &NastranReader::held},
+                {"SPC1", &NastranReader::held},    {"PARAM", &NastranReader::parameter},
+                {"CONM2", &NastranReader::mass},   {"CELAS1", &NastranReader::spring},
+                {"CELAS2", &NastranReader::spring}};
+    for (const char* name : {"RBE2", "RBE3", "RBAR"}) all.emplace(name, &NastranReader::rigid);
+    for (const char* name : {"CQUAD4", "CTRIA3"}) all.emplace(name, &NastranReader::flat_shell);
+    for (const char* name : {"CQUAD8", "CTRIA6"}) all.emplace(name, &NastranReader::curved_shell);
+    for (const char* name : {"CBAR", "CBEAM"}) all.emplace(name, &NastranReader::beam);
     for (const char* name : {"CORD2R", "CORD2C", "CORD2S", "MAT1", "PSHELL", "PBAR", "PBARL",
                              "PBEAM", "PELAS", "CASE", "GRDSET", "SPCADD", "MPC", "MPCADD"})
-      all.emplace(name, [](Reader&, const Card&) {});
+      all.emplace(name, [](NastranReader&, const Card&) {});
     for (const char* name : {"EIGR", "EIGRL", "FORCE", "MOMENT", "PLOAD", "PLOAD2", "PLOAD4",
                              "GRAV", "LOAD", "TEMP", "TEMPD"})
-      all.emplace(name, [](Reader& reader, const Card& card) { ++reader.left_out_[card.name()]; });
+      all.emplace(name,
+                  [](NastranReader& reader, const Card& card) { ++reader.left_out_[card.name()]; });
     return all;
   }
 
@@ -260,7 +263,7 @@ class Reader {
 
 Deck nastran_deck(std::span<const Card> cards)
 {
-  return Reader(cards).read();
+  return NastranReader(cards).read();
 }
 
 namespace {

@@ -176,7 +176,7 @@ class BulkLines {
 };
 
 /// The file that INCLUDE names, with or without quotes.
-std::string included_file(std::string_view line)
+std::string file_of_include_card(std::string_view line)
 {
   constexpr std::string_view command = "INCLUDE";
   const std::string text = trimmed(line.substr(0, line.find('$')));
@@ -253,7 +253,7 @@ void fill_grids(std::vector<Card>& cards)
 
 std::vector<Card> nastran_cards(const std::string& text, const ReadIncluded& read)
 {
-  const DeckLines lines(text, included_file, read);
+  const DeckLines lines(text, file_of_include_card, read);
   const bool has_begin =
       std::ranges::any_of(lines, [](const DeckLine& line) { return begins_bulk(line.text); });
   CaseControl control;

@@ -73,9 +73,9 @@ void expect_no_mass(const Card& card, std::size_t i)
 }
 
 /// What cards say of properties and constraints, in SI units.
-class Declarer {
+class NastranDeclarer {
  public:
-  Declarer(std::span<const Card> cards, const Deck& deck, const DeckUnits& units)
+  NastranDeclarer(std::span<const Card> cards, const Deck& deck, const DeckUnits& units)
       : cards_(cards), deck_(deck), units_(units), holders_(deck)
   {
     for (const Card& card : cards)
@@ -344,7 +344,7 @@ class Declarer {
 Declarations nastran_declarations(std::span<const Card> cards, const Deck& deck,
                                   const DeckUnits& units)
 {
-  return Declarer(cards, deck, units).declare();
+  return NastranDeclarer(cards, deck, units).declare();
 }
 
 // Masses and springs at nodes.
@@ -562,7 +562,7 @@ DeclaredBeam circle(double outer, double inner, double shear_factor)
 /// @param width   along the element's z axis
 /// @param height  along its y axis, which is a scene's z
 /// Source of J: Young and Budynas, Roark's Formulas for Stress and Strain, 7th ed., table 10.1.
-DeclaredBeam rectangle(double width, double height)
+DeclaredBeam rectangular_beam(double width, double height)
 {
   const double a = 0.5 * std::max(width, height), b = 0.5 * std::min(width, height);
   const double slimness = b / a;
@@ -593,7 +593,7 @@ DeclaredBeam bar_of_shape(const Card& card)
     card.refuse("mass that is not of the material (NSM) has no counterpart in a scene");
   card.expect_no_more_than(9 + n);
   if (shape == "ROD") return circle(dimension(card, 1), 0.0, 0.9);
-  if (shape == "BAR") return rectangle(dimension(card, 1), dimension(card, 2));
+  if (shape == "BAR") return rectangular_beam(dimension(card, 1), dimension(card, 2));
   const double inner = card.real(10, "DIM2"), outer = dimension(card, 1);
   if (!(inner >= 0.0 && inner < outer)) card.refuse("DIM2, the inner radius, is not below DIM1");
   return circle(outer, inner, 0.5);

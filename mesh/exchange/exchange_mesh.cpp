@@ -18,7 +18,7 @@ namespace chladni::mesh {
 
 namespace {
 
-bool contains(const std::vector<std::string>& names, const std::string& name)
+bool is_among(const std::vector<std::string>& names, const std::string& name)
 {
   return std::ranges::find(names, name) != names.end();
 }
@@ -157,7 +157,7 @@ class SectionGroups {
  private:
   bool has_section(std::size_t element, int group) const
   {
-    return contains(is_line(mesh_, element) ? options_.line_groups : options_.shell_groups,
+    return is_among(is_line(mesh_, element) ? options_.line_groups : options_.shell_groups,
                     name(group));
   }
 

@@ -186,15 +186,15 @@ std::vector<std::string> MedFile::texts(const std::string& name, std::size_t len
   return texts;
 }
 
-struct Type {
+struct MedType {
   Shape shape;
   int order;
   std::size_t n_nodes;
 };
 
-const std::map<std::string, Type>& types()
+const std::map<std::string, MedType>& med_types()
 {
-  static const std::map<std::string, Type> all{
+  static const std::map<std::string, MedType> all{
       {"SE2", {Shape::line, 1, 2}},          {"SE3", {Shape::line, 2, 3}},
       {"TR3", {Shape::triangle, 1, 3}},      {"TR6", {Shape::triangle, 2, 6}},
       {"QU4", {Shape::quadrilateral, 1, 4}}, {"QU8", {Shape::quadrilateral, 2, 8}},
@@ -205,9 +205,9 @@ const std::map<std::string, Type>& types()
 /// Numbers of families and the groups that each is of.
 using Families = std::map<std::int64_t, std::vector<std::string>>;
 
-class Reader {
+class MedReader {
  public:
-  explicit Reader(const std::string& bytes) : file_(bytes) {}
+  explicit MedReader(const std::string& bytes) : file_(bytes) {}
 
   ExchangeMesh read()
   {
@@ -321,10 +321,10 @@ class Reader {
     }
   }
 
-  const Type& known_type(const std::string& name) const
+  const MedType& known_type(const std::string& name) const
   {
-    const auto type = types().find(name);
-    if (type != types().end()) return type->second;
+    const auto type = med_types().find(name);
+    if (type != med_types().end()) return type->second;
     static const std::set<std::string> solids{"TE4", "T10", "PY5", "P13", "PE6", "P15",  "P18",
                                               "HE8", "H20", "H27", "PO6", "POE", "OCT12"};
     if (solids.contains(name)) throw Error(fmt::format("MAI: {} is {}", name, solids_are_not_read));
@@ -346,7 +346,7 @@ class Reader {
   {
     const std::string name = step_ + "/MAI/" + type_name;
     const bool is_point = type_name == "PO1";
-    const Type type = is_point ? Type{Shape::line, 0, 1} : known_type(type_name);
+    const MedType type = is_point ? MedType{Shape::line, 0, 1} : known_type(type_name);
     const std::vector<std::int64_t> nodes = node_indices(name);
     if (nodes.size() % type.n_nodes != 0)
       throw Error(fmt::format("{}/NOD: has {} values", shown(name), nodes.size()));
@@ -384,7 +384,7 @@ class Reader {
 
 ExchangeMesh med_mesh(const std::string& bytes)
 {
-  return Reader(bytes).read();
+  return MedReader(bytes).read();
 }
 
 }  // namespace chladni::mesh

@@ -160,9 +160,9 @@ std::vector<std::int64_t> corners_before_middles(const std::vector<std::int64_t>
   return nodes;
 }
 
-class Reader {
+class UnvReader {
  public:
-  explicit Reader(double length_unit) : length_unit_(length_unit) {}
+  explicit UnvReader(double length_unit) : length_unit_(length_unit) {}
 
   ExchangeMesh read(const std::vector<UnvDataset>& datasets)
   {
@@ -337,7 +337,7 @@ class Reader {
 
 ExchangeMesh unv_mesh(const std::string& text, double length_unit)
 {
-  return Reader(length_unit).read(unv_datasets(text));
+  return UnvReader(length_unit).read(unv_datasets(text));
 }
 
 namespace {

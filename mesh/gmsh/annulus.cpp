@@ -355,7 +355,7 @@ int add_line(int from, int to, int n_elements)
   return line;
 }
 
-double distance(int first_point, int last_point)
+double distance_of_points(int first_point, int last_point)
 {
   std::vector<double> a, b;
   geo::synchronize();
@@ -383,7 +383,7 @@ Circle add_circle(const CirclePlace& place, const Circle& like)
 
 std::vector<int> add_rows(const Circle& first, const Circle& last, double size)
 {
-  const double width = distance(first.points[0], last.points[0]);
+  const double width = distance_of_points(first.points[0], last.points[0]);
   const int n_across = std::max(1, static_cast<int>(std::lround(width / size)));
   const std::size_t n = first.arcs.size();
   std::vector<int> spokes;

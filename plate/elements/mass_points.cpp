@@ -25,7 +25,7 @@ MassPoints empty_points(Index n_points, Index n_nodes)
 }
 
 /// theta x r = S theta.
-Matrix3d rotation_to_displacement(const Vector3d& r)
+Matrix3d arm_rotation_to_displacement(const Vector3d& r)
 {
   Matrix3d S;
   S << 0.0, r.z(), -r.y(), -r.z(), 0.0, r.x(), r.y(), -r.x(), 0.0;
@@ -52,7 +52,7 @@ const ShellRule& shell_rule(mesh::Shape shape, int order)
 Eigen::Matrix<double, 3, 6> section_displacement(double y, double z, bool has_rotary_inertia)
 {
   Eigen::Matrix<double, 3, 6> R;
-  R << Matrix3d::Identity(), rotation_to_displacement({0.0, y, z});
+  R << Matrix3d::Identity(), arm_rotation_to_displacement({0.0, y, z});
   if (!has_rotary_inertia) R.rightCols<2>().setZero();
   return R;
 }
@@ -73,7 +73,7 @@ MassPoints shell_mass_points(mesh::Shape shape, int order, const ShellNodes& nod
       points.x.row(p) = basis.N.row(q) * x;
       // u = sum N_i (u_i + zeta theta_i x D_i)
       for (Index i = 0; i < nodes.x.rows(); ++i) {
-        const Matrix3d S = zeta * rotation_to_displacement(nodes.D.row(i).transpose());
+        const Matrix3d S = zeta * arm_rotation_to_displacement(nodes.D.row(i).transpose());
         for (std::size_t c = 0; c < 3; ++c) {
           points.N[c](p, 6 * i + Index(c)) = basis.N(q, i);
           points.N[c].row(p).segment<3>(6 * i + 3) = basis.N(q, i) * S.row(Index(c));
@@ -124,7 +124,7 @@ MassPoints rigid_mass_points(const PointMass& mass, const Vector3d& node)
     points.x.row(2 + 2 * k) = centre - principal.eigenvectors().col(k);
   }
   for (Index p = 0; p < 7; ++p) {
-    const Matrix3d S = rotation_to_displacement(points.x.row(p).transpose());
+    const Matrix3d S = arm_rotation_to_displacement(points.x.row(p).transpose());
     for (std::size_t c = 0; c < 3; ++c) {
       points.N[c](p, Index(c)) = 1.0;
       points.N[c].row(p).segment<3>(3) = S.row(Index(c));

@@ -68,7 +68,7 @@ MatrixXd drilling_stiffness(const Rule& rule, const ShellNodes& nodes, const Mat
 }
 
 /// theta x D = S theta.
-Matrix3d rotation_to_displacement(const Vector3d& D)
+Matrix3d director_rotation_to_displacement(const Vector3d& D)
 {
   Matrix3d S;
   S << 0.0, D.z(), -D.y(), -D.z(), 0.0, D.x(), D.y(), -D.x(), 0.0;
@@ -97,9 +97,9 @@ MatrixXd mass(const Rule& rule, const ShellNodes& nodes, double density)
   const MatrixXd m_0 = weighted(0), m_1 = weighted(1), m_2 = weighted(2);
   MatrixXd M(6 * n, 6 * n);
   for (Index i = 0; i < n; ++i) {
-    const Matrix3d S_i = rotation_to_displacement(nodes.D.row(i).transpose());
+    const Matrix3d S_i = director_rotation_to_displacement(nodes.D.row(i).transpose());
     for (Index j = 0; j < n; ++j) {
-      const Matrix3d S_j = rotation_to_displacement(nodes.D.row(j).transpose());
+      const Matrix3d S_j = director_rotation_to_displacement(nodes.D.row(j).transpose());
       M.block<3, 3>(6 * i, 6 * j) = m_0(i, j) * Matrix3d::Identity();
       M.block<3, 3>(6 * i, 6 * j + 3) = m_1(i, j) * S_j;
       M.block<3, 3>(6 * i + 3, 6 * j) = m_1(i, j) * S_i.transpose();

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using mesh::Shape;
 
-constexpr double kappa = 5.0 / 6.0;
+constexpr double shear_correction = 5.0 / 6.0;
 
 /// Covariant strains of some displacements at points, one column each: those of CovariantStrains
 /// times U_e.
@@ -118,7 +118,7 @@ Matrix3d stress(const Matrix3d& strain, const Vector3d& e_3, const Material& mat
   const double G = 0.5 * material.young / (1.0 + nu);
   const Matrix3d P = Matrix3d::Identity() - e_3 * e_3.transpose();
   const Matrix3d tangential = P * strain * P;
-  const Vector3d tau = 2.0 * kappa * G * P * strain * e_3;
+  const Vector3d tau = 2.0 * shear_correction * G * P * strain * e_3;
   return plane * ((1.0 - nu) * tangential + nu * tangential.trace() * P) + tau * e_3.transpose() +
          e_3 * tau.transpose();
 }
@@ -164,7 +164,7 @@ Matrix3d strain_at(const StrainValues& s, const Place& place, Index column)
   return place.contravariant * covariant * place.contravariant.transpose();
 }
 
-Eigen::Matrix<double, 1, 6> components(const Matrix3d& A)
+Eigen::Matrix<double, 1, 6> voigt_components(const Matrix3d& A)
 {
   Eigen::Matrix<double, 1, 6> row;
   row << A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(1, 2), A(0, 2);
@@ -177,8 +177,8 @@ void add_stress(const Matrix3d& sigma, const Place& place, ShellResultants& resu
   const double half = place.half_thickness;
   const Vector3d tau = sigma * place.e_3;
   const Matrix3d tangential = sigma - tau * place.e_3.transpose() - place.e_3 * tau.transpose();
-  result.N.row(place.q) += half * components(tangential);
-  result.M.row(place.q) += half * half * place.zeta * components(tangential);
+  result.N.row(place.q) += half * voigt_components(tangential);
+  result.M.row(place.q) += half * half * place.zeta * voigt_components(tangential);
   result.Q.row(place.q) += half * tau.transpose();
 }
 

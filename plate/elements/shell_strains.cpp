@@ -43,13 +43,13 @@ struct NodeTerms {
   RowVector3d Dxd;                        ///< D_i x d
 };
 
-constexpr std::array<std::pair<int, int>, 3> components{{{0, 0}, {1, 1}, {0, 1}}};
+constexpr std::array<std::pair<int, int>, 3> in_plane_components{{{0, 0}, {1, 1}, {0, 1}}};
 
 void add_membrane(CovariantStrains& s, Eigen::Index q, Eigen::Index dof, const PointFrame& f,
                   const NodeTerms& n)
 {
   for (std::size_t r = 0; r < 3; ++r) {
-    const auto [A, B] = components[r];
+    const auto [A, B] = in_plane_components[r];
     s.m[r].row(q).segment<3>(dof) = 0.5 * (f.a[A] * n.N_a[B] + f.a[B] * n.N_a[A]);
   }
 }
@@ -58,7 +58,7 @@ void add_bending(CovariantStrains& s, Eigen::Index q, Eigen::Index dof, const Po
                  const NodeTerms& n)
 {
   for (std::size_t r = 0; r < 3; ++r) {
-    const auto [A, B] = components[r];
+    const auto [A, B] = in_plane_components[r];
     s.b[r].row(q).segment<3>(dof) = 0.5 * (f.d_a[A] * n.N_a[B] + f.d_a[B] * n.N_a[A]);
     s.b[r].row(q).segment<3>(dof + 3) = 0.5 * (n.Dxa[A] * n.N_a[B] + n.Dxa[B] * n.N_a[A]);
     s.c[r].row(q).segment<3>(dof + 3) = 0.5 * (n.Dxd_a[A] * n.N_a[B] + n.Dxd_a[B] * n.N_a[A]);

@@ -19,7 +19,7 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
+using std::numbers::pi;
 
 /// The place in the certificate of each mode of the body: the next one of the same frequency.
 /// Interface modes turn the modes above them, which then are no modes of the certificate.
@@ -55,7 +55,7 @@ Json path_json(const std::vector<mbs_export::SelectionStep>& steps)
 Json count_json(const std::string& of, const mbs_export::ModeCount& count)
 {
   return Json::object({{"of", of},
-                       {"up_to_Hz", rounded(count.up_to / two_pi)},
+                       {"up_to_Hz", rounded(count.up_to / (2.0 * pi))},
                        {"expected", count.expected},
                        {"found", count.found}});
 }
@@ -71,7 +71,7 @@ Json modes_json(const mbs_export::ModalBody& body, const mbs_export::Certificate
     const auto k = static_cast<std::size_t>(i);
     const int number = static_cast<int>(i) + 1;
     std::vector<Json::Member> mode{{"number", number},
-                                   {"frequency_Hz", rounded(body.omega[i] / two_pi)},
+                                   {"frequency_Hz", rounded(body.omega[i] / (2.0 * pi))},
                                    {"kind", name_of(body.kinds[k])}};
     if (const auto look = looks.find(number); look != looks.end())
       for (Json::Member& member : look_members(look->second)) mode.push_back(std::move(member));
@@ -101,7 +101,7 @@ Json selection_json(const mbs_export::ModalBody& body)
   if (!body.selection) return Json();
   const mbs_export::SelectionTable& selection = *body.selection;
   return Json::object({{"tolerance", rounded(selection.error)},
-                       {"up_to_Hz", rounded(selection.Omega_max / two_pi)},
+                       {"up_to_Hz", rounded(selection.Omega_max / (2.0 * pi))},
                        {"loads", texts(selection.loads)},
                        {"chosen", body.n_modes()},
                        {"modes_only", path_json(selection.modes_only)},

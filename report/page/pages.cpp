@@ -44,7 +44,7 @@ namespace {
 namespace file_parts = mbs_export::file_parts;
 
 /// What the folder holds of a scene.
-struct Found {
+struct FoundFiles {
   scene::Scene scene;
   std::optional<mbs_export::ModalBody> body;
   mbs_export::Certificate certificate;
@@ -70,9 +70,10 @@ Json sound_of(const ReportSource& source)
                              .microphone = sound && sound->wav ? sound->wav->microphone : ""});
 }
 
-Found find_files(const ReportSource& source)
+FoundFiles find_files(const ReportSource& source)
 {
-  Found found{.scene = source.scene, .body = {}, .certificate = {}, .results = {}, .sound = {}};
+  FoundFiles found{
+      .scene = source.scene, .body = {}, .certificate = {}, .results = {}, .sound = {}};
   const auto file = [&](const char* kind) { return source.folder / (found.scene.name + kind); };
   const auto check = [&](const char* kind, Made what, const mbs_export::Provenance& origin) {
     require_of_scene(found.scene, {.file = file(kind), .what = what, .origin = origin},
@@ -128,7 +129,7 @@ Json provenance_json(const mbs_export::Provenance& origin)
 }
 
 /// The disc of the study; absent without body or [squeal], or when the study does not fit the body.
-std::optional<squeal::Disc> disc_of(const Found& found)
+std::optional<squeal::Disc> disc_of(const FoundFiles& found)
 {
   if (!found.body || !found.scene.squeal) return std::nullopt;
   const squeal::SquealOptions& study = *found.scene.squeal;
@@ -136,7 +137,7 @@ std::optional<squeal::Disc> disc_of(const Found& found)
   return std::nullopt;
 }
 
-ModeLooks looks_of(const Found& found, const std::optional<squeal::Disc>& used)
+ModeLooks looks_of(const FoundFiles& found, const std::optional<squeal::Disc>& used)
 {
   if (!used) return {};
   const squeal::RingChoice rings = squeal::ring_choice(*found.scene.squeal);
@@ -144,7 +145,7 @@ ModeLooks looks_of(const Found& found, const std::optional<squeal::Disc>& used)
 }
 
 /// @throws chladni::Error naming the file when the results are of another body.
-std::vector<Motion> motions_of(const Found& found, const std::optional<squeal::Disc>& disc)
+std::vector<Motion> motions_of(const FoundFiles& found, const std::optional<squeal::Disc>& disc)
 try {
   if (!disc) return {};
   return squeal_motions(*found.results, disc->mode_numbers, found.body->n_modes());
@@ -152,7 +153,8 @@ try {
   throw Error(fmt::format("{}.squeal.h5: {}", found.scene.name, error.what()));
 }
 
-std::vector<Json::Member> body_members(const Found& found, const std::optional<squeal::Disc>& disc,
+std::vector<Json::Member> body_members(const FoundFiles& found,
+                                       const std::optional<squeal::Disc>& disc,
                                        const ModeLooks& looks)
 {
   const std::vector<Motion> motions = motions_of(found, disc);
@@ -165,7 +167,7 @@ std::vector<Json::Member> body_members(const Found& found, const std::optional<s
           {"provenance", provenance_json(found.body->provenance)}};
 }
 
-Json content_of(const Found& found, const std::string& label)
+Json content_of(const FoundFiles& found, const std::string& label)
 {
   const std::optional<squeal::Disc> disc = disc_of(found);
   const ModeLooks looks = looks_of(found, disc);
@@ -224,7 +226,7 @@ void declare_report(CLI::App& app, ReportArguments& arguments)
 
 std::string report_html(const ReportSource& source, std::string_view benchmark)
 {
-  const Found found = find_files(source);
+  const FoundFiles found = find_files(source);
   return report_page(found.scene.title, content_of(found, found.scene.title), benchmark);
 }
 

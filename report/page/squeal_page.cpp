@@ -96,7 +96,7 @@ Json spectrogram_page(const squeal::Spectrogram& spectrogram)
                        {"line_Hz", Json::array(lines)}});
 }
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
+using std::numbers::pi;
 constexpr std::size_t n_windows = 600;  ///< of a thinned history
 constexpr std::size_t most_orbit_points = 1500;
 
@@ -106,12 +106,12 @@ std::span<const double> part(const std::vector<double>& x, std::size_t from, std
 }
 
 /// Smallest and largest values over time.
-struct Range {
+struct ForceRange {
   const std::vector<double>&t, &least, &largest;
 };
 
 /// Those within fewer windows.
-Json range_json(const Range& range)
+Json range_json(const ForceRange& range)
 {
   std::vector<double> times, least, largest;
   const std::size_t n = std::min(range.t.size(), n_windows);
@@ -141,10 +141,10 @@ Json transient_json(const squeal::Transient& transient)
   const squeal::Windows& windows = transient.windows;
   const squeal::History& history = transient.history;
   const bool has_windows = !windows.t.empty();  // not in files of earlier versions
-  const Range up = has_windows ? Range{windows.t, windows.N_up_min, windows.N_up_max}
-                               : Range{history.t, history.N_up, history.N_up};
-  const Range lo = has_windows ? Range{windows.t, windows.N_lo_min, windows.N_lo_max}
-                               : Range{history.t, history.N_lo, history.N_lo};
+  const ForceRange up = has_windows ? ForceRange{windows.t, windows.N_up_min, windows.N_up_max}
+                                    : ForceRange{history.t, history.N_up, history.N_up};
+  const ForceRange lo = has_windows ? ForceRange{windows.t, windows.N_lo_min, windows.N_lo_max}
+                                    : ForceRange{history.t, history.N_lo, history.N_lo};
   return Json::object({{"speed", rounded(transient.speed)},
                        {"integrator", transient.integrator},
                        {"t", rounded(transient.envelope.t)},
@@ -157,7 +157,7 @@ Json transient_json(const squeal::Transient& transient)
 Json campbell_json(const squeal::EigenvalueMap& map, const ModeLooks& looks)
 {
   return Json::object({{"speeds", rounded(map.speeds)},
-                       {"frequency_Hz", rounded_rows(map.lambda.imag().transpose() / two_pi)},
+                       {"frequency_Hz", rounded_rows(map.lambda.imag().transpose() / (2.0 * pi))},
                        {"growth", rounded_rows(map.lambda.real().transpose())},
                        {"looks", motion_looks(map, looks)}});
 }
@@ -173,7 +173,7 @@ Json unstable_modes_json(const squeal::StabilityTable& table)
     for (const squeal::UnstableInterval& interval : branch.unstable)
       unstable.push_back(Json::array({rounded(interval.from.value), rounded(interval.to.value)}));
     branches.push_back(Json::object(
-        {{"frequency_Hz", rounded(Eigen::VectorXd(branch.lambda.imag() / two_pi))},
+        {{"frequency_Hz", rounded(Eigen::VectorXd(branch.lambda.imag() / (2.0 * pi)))},
          {"growth", rounded(Eigen::VectorXd(branch.lambda.real()))},
          {"unstable", Json::array(unstable)},
          {"worst_Hz", rounded(branch.worst.frequency_Hz)},
@@ -202,7 +202,7 @@ Json map_json(const squeal::StabilityMap& map)
                        {"frequency_Hz", rounded_rows(map.frequency_Hz)}});
 }
 
-Json rotation_json(const squeal::RotationStability& stability)
+Json rotation_of_page(const squeal::RotationStability& stability)
 {
   return Json::object({{"speeds", rounded(stability.speeds)},
                        {"growth", rounded(stability.growth)},
@@ -211,7 +211,7 @@ Json rotation_json(const squeal::RotationStability& stability)
                        {"method", stability.method.empty() ? "floquet" : stability.method}});
 }
 
-Json branch_json(const squeal::LimitCycleBranch& branch)
+Json branch_of_page(const squeal::LimitCycleBranch& branch)
 {
   std::vector<squeal::BranchPoint> points = branch.points;
   if (branch.origin) points.insert(points.begin(), branch.origin->first);
@@ -235,7 +235,7 @@ Json branch_json(const squeal::LimitCycleBranch& branch)
        {"largest_multiplier", rounded(multiplier)}});
 }
 
-Json growth_json(const std::vector<squeal::Growth>& growths)
+Json growth_of_page(const std::vector<squeal::Growth>& growths)
 {
   std::vector<Json> points;
   for (const squeal::Growth& growth : growths) {
@@ -320,14 +320,14 @@ std::vector<Json::Member> squeal_members(const squeal::SquealResults& results,
     members.emplace_back("unstable_modes", unstable_modes_json(*results.stability_table));
   if (results.map) members.emplace_back("map", map_json(*results.map));
   if (results.rotation_stability)
-    members.emplace_back("rotation", rotation_json(*results.rotation_stability));
-  if (!results.growth.empty()) members.emplace_back("growth", growth_json(results.growth));
+    members.emplace_back("rotation", rotation_of_page(*results.rotation_stability));
+  if (!results.growth.empty()) members.emplace_back("growth", growth_of_page(results.growth));
   if (results.transient) members.emplace_back("transient", transient_json(*results.transient));
   if (results.limit_cycle) members.emplace_back("limit_cycle", cycle_json(*results.limit_cycle));
   if (results.limit_cycle_direct)
     members.emplace_back("limit_cycle_direct", cycle_json(*results.limit_cycle_direct));
   if (results.limit_cycle_branch && !results.limit_cycle_branch->points.empty())
-    members.emplace_back("branch", branch_json(*results.limit_cycle_branch));
+    members.emplace_back("branch", branch_of_page(*results.limit_cycle_branch));
   if (results.spectrum) members.emplace_back("spectrum", spectrum_json(*results.spectrum));
   if (results.spectrogram)
     members.emplace_back("spectrogram", spectrogram_page(*results.spectrogram));
@@ -391,7 +391,7 @@ std::vector<Motion> squeal_motions(const squeal::SquealResults& results,
   Index i = 0, j = 0;
   const double growth = map.lambda.real().maxCoeff(&i, &j);
   const Eigen::VectorXcd shape = map.shapes[static_cast<std::size_t>(i)].col(j);
-  const double f_Hz = map.lambda(i, j).imag() / two_pi;
+  const double f_Hz = map.lambda(i, j).imag() / (2.0 * pi);
   const std::vector<int>& numbers = map.mode_numbers.empty() ? mode_numbers : map.mode_numbers;
   // Behind the modes of the body are the displacements of pads with a mass.
   const Index n = map.mode_numbers.empty() ? shape.size() : std::ssize(map.mode_numbers);

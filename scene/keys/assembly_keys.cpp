@@ -5,11 +5,12 @@ namespace {
 
 using enum KeyKind;
 
-constexpr Admissible place{.unit = "m", .usual_to = 10.0, .usually = "it is in m; is it in mm?"};
-constexpr Admissible length{
+constexpr Admissible part_place{
+    .unit = "m", .usual_to = 10.0, .usually = "it is in m; is it in mm?"};
+constexpr Admissible part_length{
     .above = 0.0, .unit = "m", .usual_to = 1.0, .usually = "it is in m; is it in mm?"};
 constexpr Admissible not_negative{.at_least = 0.0};
-constexpr Admissible friction{
+constexpr Admissible lining_friction{
     .at_least = 0.0, .usual_to = 2.0, .usually = "it is a pure number, of linings 0.2 to 0.7"};
 
 constexpr Key assembly_rows[] = {
@@ -17,7 +18,7 @@ constexpr Key assembly_rows[] = {
      "a modal body of the brake; [assembly](../how-to/several_bodies.md)"},
     {"part.name", text, "required", "by which joints and contacts name it"},
     {"part.body", text, "required", "its file, as seen from the folder of --output"},
-    {"part.position", numbers, "[0, 0, 0]", "of the origin of its mesh in the brake", place},
+    {"part.position", numbers, "[0, 0, 0]", "of the origin of its mesh in the brake", part_place},
     {"part.rotation_deg",
      numbers,
      "[0, 0, 0]",
@@ -49,7 +50,7 @@ constexpr Key assembly_rows[] = {
     {"contact", tables, "required for an assembly", "a lining between a part and the disc"},
     {"contact.face", text, "required", "\"PART.SET\", the nodes of the face"},
     {"contact.height", number, "required",
-     "of these nodes above the contact plane: half of the plate and the lining", length},
+     "of these nodes above the contact plane: half of the plate and the lining", part_length},
     {"contact.stiffness",
      number,
      "or stiffness_per_area",
@@ -75,8 +76,8 @@ constexpr Key assembly_rows[] = {
      {},
      "by area | equal"},
     {"contact.friction", number, "squeal.friction", "of this lining; or a table as there",
-     friction},
-    {"contact.friction.kinetic", number, "required", "of fast sliding", friction},
+     lining_friction},
+    {"contact.friction.kinetic", number, "required", "of fast sliding", lining_friction},
     {"contact.friction.static", number, "kinetic", "as there", not_negative},
     {"contact.friction.decay_speed",
      number,
@@ -88,7 +89,7 @@ constexpr Key assembly_rows[] = {
     {"contact.friction.table.temperature_C", number, "none", "as there"},
     {"contact.friction.table.pressure_Pa", number, "none", "as there", not_negative},
     {"contact.friction.table.speed_m_s", numbers, "any speed", "as there", not_negative},
-    {"contact.friction.table.mu", numbers, "required", "as there", friction},
+    {"contact.friction.table.mu", numbers, "required", "as there", lining_friction},
     {"contact.friction.temperature_C", number, "required with temperatures", "as there"},
     {"contact.friction.factor", number, "1", "as there", not_negative},
     {"squeal.disc", text, "required for an assembly", "the part that turns, about the z axis"},

@@ -7,7 +7,7 @@ using enum KeyKind;
 
 constexpr Admissible force{.above = 0.0, .unit = "N"};
 constexpr Admissible mass{.above = 0.0, .unit = "kg"};
-constexpr Admissible length{.above = 0.0, .unit = "m"};
+constexpr Admissible brake_length{.above = 0.0, .unit = "m"};
 constexpr Admissible spring{.above = 0.0, .unit = "N/m"};
 constexpr Admissible damper{.at_least = 0.0, .unit = "N s/m"};
 constexpr Admissible inertia{.above = 0.0, .unit = "kg m^2"};
@@ -176,7 +176,7 @@ constexpr Key brake_rows[] = {
      "required",
      "of the rotational spring",
      {.at_least = 0.0, .unit = "N m s"}},
-    {"squeal.rigid_disc.pad_radius", number, "required", "of the pads", length},
+    {"squeal.rigid_disc.pad_radius", number, "required", "of the pads", brake_length},
     {"squeal.rigid_disc.drive", word, "speed", "what turns the disc", {}, "speed | moment"},
     {"squeal.rigid_disc.equations", word, "nonlinear", "of transients", {}, "nonlinear | linear"},
     {"squeal.oscillator", table, "for the oscillator",
@@ -194,7 +194,7 @@ constexpr Key brake_rows[] = {
     {"squeal.oscillator.contact_stiffness", number, "required", "of the contact", spring},
     {"squeal.oscillator.preload", number, "required", "of the contact", force},
     {"squeal.oscillator.radius", number, "required", "speed of the surface over rotation speed",
-     length},
+     brake_length},
     {"squeal.two_masses", table, "for the two masses",
      "[pad and disc](../explanation/rigid_disc.md)"},
     {"squeal.two_masses.pad_mass", number, "required", "of the pad", mass},
@@ -205,7 +205,7 @@ constexpr Key brake_rows[] = {
     {"squeal.two_masses.disc_damping", number, "required", "of its damper", damper},
     {"squeal.two_masses.preload", number, "required", "normal force between both", force},
     {"squeal.two_masses.radius", number, "required", "speed of the surface over rotation speed",
-     length},
+     brake_length},
     {"squeal.tilting_block", table, "for the tilting block",
      "[tilting block](../explanation/rigid_disc.md)"},
     {"squeal.tilting_block.mass", number, "required", "of the block", mass},
@@ -225,9 +225,9 @@ constexpr Key brake_rows[] = {
      "of tilting",
      {.at_least = 0.0, .unit = "N m s"}},
     {"squeal.tilting_block.height", number, "required", "of the centre of mass above the surface",
-     length},
+     brake_length},
     {"squeal.tilting_block.foot_length", number, "required", "distance of the two contact points",
-     length},
+     brake_length},
     {"squeal.tilting_block.foot_offset",
      number,
      "required",
@@ -236,7 +236,7 @@ constexpr Key brake_rows[] = {
     {"squeal.tilting_block.contact_stiffness", number, "required", "of the whole foot", spring},
     {"squeal.tilting_block.preload", number, "required", "of the whole foot", force},
     {"squeal.tilting_block.radius", number, "required", "speed of the surface over rotation speed",
-     length},
+     brake_length},
 };
 
 }  // namespace

@@ -6,7 +6,7 @@ namespace {
 using enum KeyKind;
 
 constexpr Admissible length{.above = 0.0, .unit = "m"};
-constexpr Admissible place{.unit = "m"};
+constexpr Admissible mesh_place{.unit = "m"};
 
 constexpr Key mesh_rows[] = {
     {"name", text, "disc", "stem of the files that the programs write; letters, digits, _ and -"},
@@ -66,8 +66,8 @@ constexpr Key mesh_rows[] = {
     {"mesh.centre_deg", number, "0", "pad: of the middle of the sector", {.unit = "degrees"}},
     {"mesh.length", number, "required", "rectangle: along x", length},
     {"mesh.width", number, "required", "rectangle: along y", length},
-    {"mesh.start", numbers, "required", "beam: [x, y, z]", place},
-    {"mesh.end", numbers, "required", "beam: [x, y, z]", place},
+    {"mesh.start", numbers, "required", "beam: [x, y, z]", mesh_place},
+    {"mesh.end", numbers, "required", "beam: [x, y, z]", mesh_place},
     {"mesh.elements",
      integer,
      "or `element_size`",
@@ -108,7 +108,7 @@ constexpr Key mesh_rows[] = {
      "at equal angles from the x axis",
      {.at_least = 3, .at_most = 1e5}},
     {"mesh.rings.z", number, "any", "of the circle, where several surfaces cross its cylinder",
-     place},
+     mesh_place},
     {"mesh.parameters", table, "none", ".geo: numbers of its DefineConstant"},
     {"mesh.parameters.*", number, "", "any name that the .geo defines"},
     {"mesh.length_unit",

@@ -5,9 +5,9 @@ namespace {
 
 using enum KeyKind;
 
-constexpr Admissible frequency{.above = 0.0, .unit = "Hz"};
+constexpr Admissible positive_frequency{.above = 0.0, .unit = "Hz"};
 constexpr Admissible tolerance{.above = 0.0, .below = 1.0};
-constexpr std::string_view components = "x | y | z | rx | ry | rz";
+constexpr std::string_view loaded_components = "x | y | z | rx | ry | rz";
 
 constexpr Key reduction_rows[] = {
     {"interface", table, "required for a reduction", "where loads, supports and pads may act"},
@@ -35,11 +35,12 @@ constexpr Key reduction_rows[] = {
      "or `cutoff_Hz`, `tolerance`",
      "modes of the method: with the masters held, with the nodes of `body.fixed` held, or free",
      {.above = 0.0}},
-    {"reduce.cutoff_Hz", number, "or `modes`, `tolerance`", "those modes below it", frequency},
+    {"reduce.cutoff_Hz", number, "or `modes`, `tolerance`", "those modes below it",
+     positive_frequency},
     {"reduce.tolerance", number, "or `modes`, `cutoff_Hz`",
      "relative error of the frequencies up to `up_to_Hz`", tolerance},
     {"reduce.up_to_Hz", number, "required for tolerance", "highest frequency of the tolerance",
-     frequency},
+     positive_frequency},
     {"reduce.sylvester", truth, "true where it takes less than a tenth of the reduction",
      "count the eigenvalues of the FE model: is a mode missing? gives bounds of the errors"},
     {"reduce.ranks_per_harmonic",
@@ -77,7 +78,7 @@ constexpr Key reduction_rows[] = {
      "modes of the held body to keep"},
     {"body.keep.modes", integer, "one of these", "the lowest", {.above = 0.0}},
     {"body.keep.up_to_Hz", number, "one of these", "those below; with tolerance its range",
-     frequency},
+     positive_frequency},
     {"body.keep.list", integers, "one of these", "by number from 1, ascending", {.at_least = 1}},
     {"body.keep.tolerance", number, "one of these",
      "relative error of the frequency responses, against the FE model where the reduction tells "
@@ -91,7 +92,7 @@ constexpr Key reduction_rows[] = {
      {},
      "irm | frm"},
     {"body.interface_modes.at", text, "required", "interface node"},
-    {"body.interface_modes.dofs", texts, "required", "loaded components", {}, components},
+    {"body.interface_modes.dofs", texts, "required", "loaded components", {}, loaded_components},
     {"body.interface_modes.omega0",
      number,
      "auto",

@@ -5,10 +5,10 @@ namespace {
 
 using enum KeyKind;
 
-constexpr std::string_view components = "x | y | z | rx | ry | rz";
-constexpr Admissible place{.unit = "m"};
+constexpr std::string_view response_components = "x | y | z | rx | ry | rz";
+constexpr Admissible response_place{.unit = "m"};
 constexpr Admissible node_number{.at_least = 0, .at_most = 2147483647};
-constexpr Admissible frequency{.at_least = 0.0, .unit = "Hz"};
+constexpr Admissible response_frequency{.at_least = 0.0, .unit = "Hz"};
 
 constexpr Key response_rows[] = {
     {"response", table, "not asked for", "[`chladni response`](../how-to/response.md)"},
@@ -28,19 +28,21 @@ constexpr Key response_rows[] = {
     {"response.loads.at", text, "required",
      "interface node, whose nodes share the unit equally; of the FE model any group, ring or "
      "coupling"},
-    {"response.loads.dofs", texts, "required", "loaded components", {}, components},
-    {"response.loads.near", numbers, "all nodes", "the nearest node alone, [x, y, z]", place},
+    {"response.loads.dofs", texts, "required", "loaded components", {}, response_components},
+    {"response.loads.near", numbers, "all nodes", "the nearest node alone, [x, y, z]",
+     response_place},
     {"response.loads.measured_node", integer, "the nearest measured node",
      "number of the node in a measurement (`chladni response --measured`)", node_number},
     {"response.outputs", tables, "required", "motions, of each node and each of `dofs`"},
     {"response.outputs.at", text, "required", "as of loads"},
-    {"response.outputs.dofs", texts, "required", "components", {}, components},
-    {"response.outputs.near", numbers, "all nodes", "the nearest node alone, [x, y, z]", place},
+    {"response.outputs.dofs", texts, "required", "components", {}, response_components},
+    {"response.outputs.near", numbers, "all nodes", "the nearest node alone, [x, y, z]",
+     response_place},
     {"response.outputs.measured_node", integer, "the nearest measured node",
      "number of the node in a measurement (`chladni response --measured`)", node_number},
     {"response.from_Hz", number, "required", "first frequency; above 0 for logarithmic spacing",
-     frequency},
-    {"response.to_Hz", number, "required", "last frequency, above the first", frequency},
+     response_frequency},
+    {"response.to_Hz", number, "required", "last frequency, above the first", response_frequency},
     {"response.count",
      integer,
      "required",

@@ -5,7 +5,7 @@ namespace {
 
 using enum KeyKind;
 
-constexpr Admissible length{.above = 0.0, .unit = "m"};
+constexpr Admissible sound_length{.above = 0.0, .unit = "m"};
 
 constexpr Key sound_rows[] = {
     {"sound", table, "not asked for", "what `chladni sound` does, [sound](../how-to/sound.md)"},
@@ -20,7 +20,8 @@ constexpr Key sound_rows[] = {
      "middle surface of the body in the meridian"},
     {"sound.outline.from", numbers, "required", "[r, z], r >= 0", {.unit = "m"}},
     {"sound.outline.to", numbers, "required", "[r, z], r >= 0", {.unit = "m"}},
-    {"sound.outline.thickness", number, "required", "of the piece, half on each side", length},
+    {"sound.outline.thickness", number, "required", "of the piece, half on each side",
+     sound_length},
     {"sound.hub",
      word,
      "closed",
@@ -28,8 +29,8 @@ constexpr Key sound_rows[] = {
      {},
      "closed | open"},
     {"sound.holes", tables, "none", "round holes along the axis"},
-    {"sound.holes.circle_radius", number, "required", "of their centres", length},
-    {"sound.holes.radius", number, "required", "of each", length},
+    {"sound.holes.circle_radius", number, "required", "of their centres", sound_length},
+    {"sound.holes.radius", number, "required", "of each", sound_length},
     {"sound.holes.count",
      integer,
      "required",
@@ -82,11 +83,11 @@ constexpr Key sound_rows[] = {
      "6 in the plane, 2 in space",
      "of the elements",
      {.at_least = 2.0, .at_most = 8.0}},
-    {"sound.element_size", number, "from the wavelength", "largest", length},
-    {"sound.edge_size", number, "from the thickness", "at sharp edges", length},
+    {"sound.element_size", number, "from the wavelength", "largest", sound_length},
+    {"sound.edge_size", number, "from the thickness", "at sharp edges", sound_length},
     {"sound.inner_radius", number, "from body and wavelength", "where the absorbing layer begins",
-     length},
-    {"sound.layer_thickness", number, "half a wavelength", "of the absorbing layer", length},
+     sound_length},
+    {"sound.layer_thickness", number, "half a wavelength", "of the absorbing layer", sound_length},
     {"sound.layer_strength",
      number,
      "10; 5 for a thin layer or low order",

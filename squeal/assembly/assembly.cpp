@@ -131,7 +131,7 @@ void add_points(Assembly& all, const std::vector<FaceNode>& nodes, std::size_t c
   }
 }
 
-PadContact pad_of(const AssemblyPoint& point, const Lining& lining)
+PadContact pad_at_point(const AssemblyPoint& point, const Lining& lining)
 {
   return {.faces = {point.place, point.place},
           .friction = lining.friction,
@@ -280,8 +280,9 @@ Eigen::MatrixXd state_matrix(const Assembly& all, std::span<const Lining> lining
     D.topLeftCorner(n_disc, n_disc) = all.disc.D;
   }
   for (const AssemblyPoint& point : all.points) {
-    const FaceDerivatives F = face_derivatives(pad_of(point, linings[point.contact]), point.sigma,
-                                               static_cast<int>(point.S.cols()), speed);
+    const FaceDerivatives F =
+        face_derivatives(pad_at_point(point, linings[point.contact]), point.sigma,
+                         static_cast<int>(point.S.cols()), speed);
     const Eigen::MatrixXd stiff = point.S * F.by_motion, damping = point.S * F.by_rate;
     K.noalias() -= stiff * point.S.transpose();
     C.noalias() -= damping * point.S.transpose();

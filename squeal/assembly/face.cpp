@@ -25,7 +25,7 @@ namespace {
 /// it does to this part of their radius.
 constexpr double touching = 1e-3, within = 1e-4;
 
-std::string name_of(const FaceContact& contact, const Part& part)
+std::string name_of_face(const FaceContact& contact, const Part& part)
 {
   return fmt::format("\"{}.{}\" ({})", contact.face.part, contact.face.set, part.file);
 }
@@ -47,7 +47,7 @@ double side_of(const FaceContact& contact, const Part& part, const DiscFaces& di
       "(the contact plane is z = {:.6g} m, its nodes lie at z = {:.6g} to {:.6g} m); check "
       "position "
       "and rotation_deg of part \"{}\", its height, and that its mesh is in m",
-      key, name_of(contact, part), contact.height,
+      key, name_of_face(contact, part), contact.height,
       gap[worst] > 0.0 ? "is away from it" : "reaches into it", std::abs(gap[worst]), plane,
       z.minCoeff(), z.maxCoeff(), part.name));
 }
@@ -168,7 +168,7 @@ std::vector<FaceNode> face_nodes(const FaceContact& contact, const Part& part,
                                  const DiscFaces& disc, const std::string& key)
 {
   const std::vector<int>& set = nodes_of(part, contact.face.set, key + ".face");
-  const std::string what = fmt::format("{}.face: {}", key, name_of(contact, part));
+  const std::string what = fmt::format("{}.face: {}", key, name_of_face(contact, part));
   // Its points move by the tilt of the plate, too; they do not feel it turn about z.
   require_components(part, contact.face.set, {true, true, true, true, true, false}, key + ".face",
                      "a face needs displacements and tilts: keep them in the reduced system, or "
@@ -230,7 +230,7 @@ namespace {
 using Point = Eigen::Vector2d;
 using Polygon = std::vector<Point>;
 
-double cross(const Point& a, const Point& b)
+double cross_product(const Point& a, const Point& b)
 {
   return a[0] * b[1] - a[1] * b[0];
 }
@@ -242,7 +242,7 @@ Polygon chain_of(const Points& points)
   Polygon chain;
   for (const Point& p : points) {
     while (chain.size() > 1 &&
-           cross(chain.back() - chain[chain.size() - 2], p - chain.back()) <= 0.0)
+           cross_product(chain.back() - chain[chain.size() - 2], p - chain.back()) <= 0.0)
       chain.pop_back();
     chain.push_back(p);
   }
@@ -283,17 +283,17 @@ double area_of(const Polygon& polygon)
 {
   double sum = 0.0;
   for (std::size_t i = 0; i < polygon.size(); ++i)
-    sum += 0.5 * cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+    sum += 0.5 * cross_product(polygon[i], polygon[(i + 1) % polygon.size()]);
   return sum;
 }
 
 /// The integral of x over a polygon.
-double moment_of(const Polygon& polygon)
+double moment_of_polygon(const Polygon& polygon)
 {
   double sum = 0.0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    sum += (a[0] + b[0]) * cross(a, b) / 6.0;
+    sum += (a[0] + b[0]) * cross_product(a, b) / 6.0;
   }
   return sum;
 }
@@ -338,7 +338,7 @@ Eigen::VectorXd node_areas(const Eigen::VectorXd& radii, const Eigen::VectorXd& 
   if (polar.size() < 3) return Eigen::VectorXd::Zero(radii.size());
   // The integral of r dr dtheta.
   const Plane of_sector =
-      plane_of(std::move(polar), [R](const Polygon& p) { return moment_of(p) / R; });
+      plane_of(std::move(polar), [R](const Polygon& p) { return moment_of_polygon(p) / R; });
   const Plane of_plate = plane_of(std::move(straight), area_of);
   const Plane& taken = of_plate.whole() < of_sector.whole() ? of_plate : of_sector;
   // On a line rounding alone leaves some area.

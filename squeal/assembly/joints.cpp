@@ -158,12 +158,12 @@ struct NodePair {
   int first, second;
 };
 
-std::string name_of(const PartNodes& nodes)
+std::string name_of_nodes(const PartNodes& nodes)
 {
   return fmt::format("{}.{}", nodes.part, nodes.set);
 }
 
-double size_of(const Part& part)
+double size_of_part(const Part& part)
 {
   return (part.positions.rowwise().maxCoeff() - part.positions.rowwise().minCoeff()).norm();
 }
@@ -171,7 +171,7 @@ double size_of(const Part& part)
 void check_distance(const JointOptions& joint, const std::string& key, const Part& a, const Part& b,
                     double distance)
 {
-  const double size = std::max(size_of(a), size_of(b));
+  const double size = std::max(size_of_part(a), size_of_part(b));
   if (distance <= joint.span + placement * size) return;
   // No joint is longer than the parts that it joins.
   const std::string bridge =
@@ -182,7 +182,8 @@ void check_distance(const JointOptions& joint, const std::string& key, const Par
   throw Error(fmt::format(
       "{}: nodes of \"{}\" and \"{}\" are {:.6g} m apart; move a part by its position ({} and {} "
       "may have other units or origins){}",
-      key, name_of(joint.ends[0]), name_of(joint.ends[1]), distance, a.file, b.file, bridge));
+      key, name_of_nodes(joint.ends[0]), name_of_nodes(joint.ends[1]), distance, a.file, b.file,
+      bridge));
 }
 
 /// Each node of the first set with the nearest one of the second set.
@@ -203,9 +204,9 @@ std::vector<NodePair> pairs_of(const JointOptions& joint, const std::string& key
     free.erase(nearest);
   }
   if (first.size() != second.size()) {
-    throw Error(
-        fmt::format("{}: \"{}\" has {} nodes and \"{}\" has {}; a joint joins them one by one", key,
-                    name_of(joint.ends[0]), first.size(), name_of(joint.ends[1]), second.size()));
+    throw Error(fmt::format(
+        "{}: \"{}\" has {} nodes and \"{}\" has {}; a joint joins them one by one", key,
+        name_of_nodes(joint.ends[0]), first.size(), name_of_nodes(joint.ends[1]), second.size()));
   }
   return pairs;
 }
@@ -241,7 +242,8 @@ void check_end(const JointOptions& joint, const PartNodes& end, const Part& part
   const Components components = components_of(joint);
   Components needed = components;
   for (Eigen::Index i = 0; i < arms.cols(); ++i) {
-    const Components of_node = needed_of_node(components, arms.col(i), placement * size_of(part));
+    const Components of_node =
+        needed_of_node(components, arms.col(i), placement * size_of_part(part));
     for (std::size_t c = 0; c < needed.size(); ++c) needed[c] = needed[c] || of_node[c];
   }
   require_components(part, end.set, needed, key,
@@ -302,7 +304,7 @@ Eigen::MatrixXd rigid_rows(const JointOptions& joint, const JointMotion& pair)
   return rows;
 }
 
-void append(Eigen::MatrixXd& B, const Eigen::MatrixXd& rows)
+void append_rows(Eigen::MatrixXd& B, const Eigen::MatrixXd& rows)
 {
   B.conservativeResize(B.rows() + rows.rows(), rows.cols());
   B.bottomRows(rows.rows()) = rows;
@@ -369,11 +371,11 @@ JoinedParts joined(std::span<const Part> parts, std::span<const JointOptions> jo
     const std::string name = fmt::format("joint[{}]", i + 1);
     Eigen::MatrixXd B(0, n);
     for (const JointMotion& pair : relative_motions(places, joint, name + ".between")) {
-      if (!joint.rigid.empty()) append(B, rigid_rows(joint, pair));
+      if (!joint.rigid.empty()) append_rows(B, rigid_rows(joint, pair));
       all.K += pair.motion.transpose() * k.asDiagonal() * pair.motion;
       all.C += pair.motion.transpose() * d.asDiagonal() * pair.motion;
     }
-    append(all.B, B);
+    append_rows(all.B, B);
     if (const auto note = note_of_locking(places, joint, B, name)) all.notes.push_back(*note);
   }
   return all;

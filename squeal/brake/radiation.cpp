@@ -15,11 +15,11 @@
 namespace chladni::squeal {
 namespace {
 
-constexpr const char* format = "chladni-radiation";
-constexpr std::int64_t version = 1;
+constexpr const char* radiation_format = "chladni-radiation";
+constexpr std::int64_t radiation_version = 1;
 
 /// Frequencies of the same body are equal but for rounding.
-constexpr double same_frequency = 1e-9;
+constexpr double same_mode_frequency = 1e-9;
 
 }  // namespace
 
@@ -31,7 +31,7 @@ Disc with_radiation(Disc disc, const Radiation& radiation)
     const auto found = std::ranges::find(numbers, number);
     const auto at = static_cast<Eigen::Index>(found - numbers.begin());
     if (found == numbers.end() ||
-        std::abs(radiation.omega[at] - disc.omega[i]) > same_frequency * disc.omega[i]) {
+        std::abs(radiation.omega[at] - disc.omega[i]) > same_mode_frequency * disc.omega[i]) {
       throw Error(fmt::format(
           "radiation: mode {} of the body ({:.6g} Hz) is not among those whose radiation is known; "
           "compute it again with `chladni sound`",
@@ -46,8 +46,8 @@ void write_radiation(const std::filesystem::path& file, const Radiation& radiati
                      const std::string& title, const mbs_export::Provenance& provenance)
 {
   files::Writer writer(file.string());
-  writer.attribute("/", "format", format);
-  writer.attribute("/", "version", version);
+  writer.attribute("/", "format", radiation_format);
+  writer.attribute("/", "version", radiation_version);
   writer.attribute("/", "title", title);
   writer.write("mode_numbers", std::span<const int>(radiation.mode_numbers), "1");
   writer.write("frequencies", radiation.omega, "rad/s");
@@ -65,7 +65,7 @@ Radiation read_radiation(const std::filesystem::path& file)
 
 Radiation read_radiation(const files::Reader& reader)
 {
-  reader.expect_format(format, version);
+  reader.expect_format(radiation_format, radiation_version);
   std::vector<int> numbers = read_mode_numbers(reader, "mode_numbers");
   const auto n = static_cast<Eigen::Index>(numbers.size());
   return {.mode_numbers = std::move(numbers),

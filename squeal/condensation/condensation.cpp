@@ -96,8 +96,8 @@ std::vector<Index> first_of(const InertialDisc& disc, int n)
 }
 
 /// What each position of the disc says of the radial shapes of one number of nodal diameters.
-void add_disc(std::vector<PartShape>& shapes, std::size_t part, const Assembly& all, Index n_modes,
-              std::span<const PartMotions> motions, double omega)
+void add_disc_shapes(std::vector<PartShape>& shapes, std::size_t part, const Assembly& all,
+                     Index n_modes, std::span<const PartMotions> motions, double omega)
 {
   const InertialDisc& disc = all.disc;
   const int highest = *std::ranges::max_element(disc.nodal_diameters);
@@ -161,7 +161,7 @@ std::vector<PartShape> principal_shapes(const Assembly& all, const AssemblyOptio
   std::vector<PartShape> shapes;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (options.parts[i].name == options.disc) {
-      add_disc(shapes, i, all, bodies[i].n_modes(), motions, omega);
+      add_disc_shapes(shapes, i, all, bodies[i].n_modes(), motions, omega);
       continue;
     }
     MatrixXd Y;

@@ -14,13 +14,13 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr int newton_steps_max = 8;
+constexpr int branch_newton_steps_max = 8;
 /// Change, relative, at which Newton's method has converged.
-constexpr double converged = 1e-7;
-constexpr double tolerance = 1e-9;
+constexpr double orbit_converged = 1e-7;
+constexpr double flow_tolerance = 1e-9;
 /// Step of the difference by the speed, relative: the integration leaves 1e-9, its second
 /// derivative about as much.
-constexpr double difference = 1e-5;
+constexpr double difference_by_speed = 1e-5;
 
 /// The equations of a periodic motion at (x, T, speed) and their derivatives by
 /// (x / |x|, ln T, ln speed); the last row is left to the caller.
@@ -32,15 +32,15 @@ struct ArcEquations {
 ArcEquations equations_at(const AutonomousMotionAt& motion_at, const CycleStart& at, double speed)
 {
   const std::unique_ptr<AutonomousMotion> motion = motion_at(speed);
-  const std::unique_ptr<AutonomousMotion> faster = motion_at(speed * (1.0 + difference));
-  const Flow now = flow(*motion, at, tolerance);
+  const std::unique_ptr<AutonomousMotion> faster = motion_at(speed * (1.0 + difference_by_speed));
+  const Flow now = flow(*motion, at, flow_tolerance);
   const Eigen::Index n = at.x.size();
   const double scale = at.x.norm();
   ArcEquations equations{Eigen::MatrixXd::Zero(n + 2, n + 2), Eigen::VectorXd::Zero(n + 2)};
   Eigen::MatrixXd& J = equations.J;
   J.topLeftCorner(n, n) = scale * (now.derivative - Eigen::MatrixXd::Identity(n, n));
   J.col(n).head(n) = at.period * motion->rate_at(now.end);
-  J.col(n + 1).head(n) = (end_of(*faster, at, tolerance) - now.end) / difference;
+  J.col(n + 1).head(n) = (end_of(*faster, at, flow_tolerance) - now.end) / difference_by_speed;
   J.row(n).head(n) = at.period * motion->rate_at(at.x).transpose();
   equations.residual.head(n) = at.x - now.end;
   return equations;
@@ -91,7 +91,7 @@ std::optional<ArcPoint> corrected(const AutonomousMotionAt& motion, const ArcPoi
   CycleStart at = near.at;
   double speed = near.speed;
   const Eigen::Index last = near.tangent.size() - 1;
-  for (int i = 0; i < newton_steps_max; ++i) {
+  for (int i = 0; i < branch_newton_steps_max; ++i) {
     ArcEquations equations = equations_at(motion, at, speed);
     if (!equations.J.allFinite() || !equations.residual.allFinite()) return std::nullopt;
     const ArcEquations kept = equations;
@@ -99,7 +99,7 @@ std::optional<ArcPoint> corrected(const AutonomousMotionAt& motion, const ArcPoi
     const Eigen::VectorXd change = equations.J.partialPivLu().solve(equations.residual);
     if (!change.allFinite() || change.norm() > largest_change) return std::nullopt;
     move(at, speed, change);
-    if (change.norm() > converged) continue;
+    if (change.norm() > orbit_converged) continue;
     const auto tangent = tangent_of(kept, near.tangent);
     if (!tangent) return std::nullopt;
     return ArcPoint{at, speed, *tangent};
@@ -111,7 +111,7 @@ namespace {
 
 /// Of the first cycle, relative to the compression of the pad: the speed departs from that of the
 /// limit with its square.
-constexpr double amplitude = 0.02;
+constexpr double amplitude_at_limit = 0.02;
 /// Of the first Newton step, relative: the eigenvector misses the cycle by about the amplitude.
 constexpr double largest_change = 0.5;
 
@@ -126,8 +126,8 @@ std::optional<ArcPoint> cycle_at_hopf(const Brake& brake, const AutonomousMotion
   Eigen::Index i = 0;
   (solver.eigenvalues().array() - std::complex<double>(0.0, omega)).abs().minCoeff(&i);
   const std::unique_ptr<AutonomousMotion> at_limit = motion(limit.value);
-  const Eigen::VectorXcd v =
-      moving_the_pad(*at_limit, solver.eigenvectors().col(i), amplitude * brake.rest_compression());
+  const Eigen::VectorXcd v = moving_the_pad(*at_limit, solver.eigenvectors().col(i),
+                                            amplitude_at_limit * brake.rest_compression());
   const Eigen::Index n = v.size();
   ArcPoint near{{v.real(), 2.0 * pi / omega}, limit.value, Eigen::VectorXd::Zero(n + 2)};
   near.tangent.head(n) = v.real().normalized();

@@ -60,7 +60,7 @@ Eigen::MatrixXd with_all_modes(const FlexibleDisc& few, const FlexibleDisc& all,
 /// Of the sharper cycle: twice as many as those of the cycle.
 constexpr int n_sharp_samples = 512;
 /// Of the forces, for derivatives of the cycle.
-constexpr int n_samples = 128;
+constexpr int samples_of_errors = 128;
 constexpr int n_harmonics_min = 3, n_harmonics_max = 12;
 /// Equations of the harmonic balance, which are solved densely, up to which there are more than the
 /// fewest harmonics.
@@ -70,9 +70,9 @@ constexpr Eigen::Index n_equations_max = 4000;
 /// Of two cycles whose difference counts.
 constexpr HarmonicResolution compared{
     .n_harmonics = n_harmonics_min, .n_samples = 64, .tolerance = 1e-8};
-constexpr double tolerance = 1e-9;
+constexpr double states_tolerance = 1e-9;
 /// Relative; f is piecewise smooth, so that central differences leave its square.
-constexpr double step = 1e-5;
+constexpr double relative_change = 1e-5;
 
 /// What is told with its error.
 constexpr std::array<ErrorBudget CycleErrors::*, 3> told{
@@ -115,20 +115,20 @@ class ChangingCycle {
   ChangingCycle(const FlexibleDisc& brake, AutonomousMotion& motion, const DirectLimitCycle& cycle)
       : brake_(brake),
         speed_(cycle.speed),
-        balance_(motion, series_near(motion, cycle), n_samples),
-        pad_(pad_motion(motion, samples_of(balance_.at(), n_samples)))
+        balance_(motion, series_near(motion, cycle), samples_of_errors),
+        pad_(pad_motion(motion, samples_of(balance_.at(), samples_of_errors)))
   {}
 
   /// Of frequency, velocity and displacement by the logarithm of what is scaled, [3].
   Eigen::VectorXd by(const DiscScaling& scale) const
   {
-    const std::unique_ptr<SlidingDisc> more = scaled(scale, 1.0 + step),
-                                       less = scaled(scale, 1.0 - step);
-    const HarmonicCycle change = balance_.change(*more, *less, 2.0 * step);
-    const PadMotion at_more = pad_after(*more, change, step),
-                    at_less = pad_after(*less, change, -step);
-    const Eigen::VectorXd z = (at_more.z - at_less.z) / (2.0 * step),
-                          z_dot = (at_more.z_dot - at_less.z_dot) / (2.0 * step);
+    const std::unique_ptr<SlidingDisc> more = scaled(scale, 1.0 + relative_change),
+                                       less = scaled(scale, 1.0 - relative_change);
+    const HarmonicCycle change = balance_.change(*more, *less, 2.0 * relative_change);
+    const PadMotion at_more = pad_after(*more, change, relative_change),
+                    at_less = pad_after(*less, change, -relative_change);
+    const Eigen::VectorXd z = (at_more.z - at_less.z) / (2.0 * relative_change),
+                          z_dot = (at_more.z_dot - at_less.z_dot) / (2.0 * relative_change);
     const double velocity = peak(pad_.z_dot) > peak(-pad_.z_dot) ? peak_change(pad_.z_dot, z_dot)
                                                                  : peak_change(-pad_.z_dot, -z_dot);
     const double stroke = peak_change(pad_.z, z) + peak_change(-pad_.z, -z);
@@ -141,8 +141,8 @@ class ChangingCycle {
     const Eigen::Index affordable = (n_equations / motion.size() - 1) / 2;
     const int n_harmonics =
         std::clamp(static_cast<int>(affordable), n_harmonics_min, n_harmonics_max);
-    const Eigen::MatrixXd states =
-        states_over_period(motion, {cycle.x, 1.0 / cycle.frequency_Hz}, n_samples, tolerance);
+    const Eigen::MatrixXd states = states_over_period(motion, {cycle.x, 1.0 / cycle.frequency_Hz},
+                                                      samples_of_errors, states_tolerance);
     return series_of(states, 2.0 * pi * cycle.frequency_Hz, n_harmonics);
   }
 
@@ -155,7 +155,8 @@ class ChangingCycle {
 
   PadMotion pad_after(AutonomousMotion& motion, const HarmonicCycle& change, double by) const
   {
-    return pad_motion(motion, samples_of({balance_.at().X + by * change.X, 0.0}, n_samples));
+    return pad_motion(motion,
+                      samples_of({balance_.at().X + by * change.X, 0.0}, samples_of_errors));
   }
 
   const FlexibleDisc& brake_;
@@ -169,7 +170,7 @@ std::optional<Eigen::Vector3d> balanced_numbers(AutonomousMotion& motion, const 
 {
   const auto cycle = harmonic_balance(motion, near, compared);
   if (!cycle) return std::nullopt;
-  const PadMotion pad = pad_motion(motion, samples_of(*cycle, n_samples));
+  const PadMotion pad = pad_motion(motion, samples_of(*cycle, samples_of_errors));
   const PadAmplitudes amplitudes = pad_amplitudes(pad.z, pad.z_dot);
   return Eigen::Vector3d(cycle->omega / (2.0 * pi), amplitudes.velocity, amplitudes.displacement);
 }
@@ -184,8 +185,8 @@ std::optional<Eigen::Vector3d> errors_by_modes_left_out(const FlexibleDisc& brak
   if (!all || !all->is_autonomous()) return std::nullopt;
   const std::unique_ptr<AutonomousMotion> motion_of_all = all->motion(cycle.speed);
   if (motion_of_all->size() * (2 * compared.n_harmonics + 1) > n_equations_max) return std::nullopt;
-  const Eigen::MatrixXd states =
-      states_over_period(motion, {cycle.x, 1.0 / cycle.frequency_Hz}, n_samples, tolerance);
+  const Eigen::MatrixXd states = states_over_period(motion, {cycle.x, 1.0 / cycle.frequency_Hz},
+                                                    samples_of_errors, states_tolerance);
   const auto near = [&cycle](const Eigen::MatrixXd& x) {
     return series_of(x, 2.0 * pi * cycle.frequency_Hz, compared.n_harmonics);
   };

@@ -14,9 +14,9 @@ namespace {
 using std::numbers::pi;
 
 /// The first multiple of the frequency that is taken for a lower one is 120, which is rounding.
-constexpr int n_samples = 128;
+constexpr int samples_of_harmonics = 128;
 /// Of the integration over the period.
-constexpr double tolerance = 1e-10;
+constexpr double harmonics_tolerance = 1e-10;
 
 }  // namespace
 
@@ -25,13 +25,15 @@ Eigen::MatrixXcd cycle_harmonics(const Disc& disc, const SquealOptions& options,
 {
   const InertialDisc inertial = inertial_disc(disc);
   SlidingDisc motion(inertial, options, cycle.speed);
-  const Eigen::MatrixXd x =
-      states_over_period(motion, {cycle.x, 1.0 / cycle.frequency_Hz}, n_samples, tolerance);
+  const Eigen::MatrixXd x = states_over_period(motion, {cycle.x, 1.0 / cycle.frequency_Hz},
+                                               samples_of_harmonics, harmonics_tolerance);
   Eigen::MatrixXcd harmonics = Eigen::MatrixXcd::Zero(inertial.n_modes(), n_cycle_harmonics);
-  for (int i = 0; i < n_samples; ++i) {
+  for (int i = 0; i < samples_of_harmonics; ++i) {
     const Eigen::VectorXd a = x.col(i).head(inertial.n_modes()).cwiseQuotient(inertial.omega);
-    for (int h = 1; h <= n_cycle_harmonics; ++h)
-      harmonics.col(h - 1) += std::polar(2.0 / n_samples, -2.0 * pi * h * i / n_samples) * a;
+    for (int h = 1; h <= n_cycle_harmonics; ++h) {
+      harmonics.col(h - 1) +=
+          std::polar(2.0 / samples_of_harmonics, -2.0 * pi * h * i / samples_of_harmonics) * a;
+    }
   }
   harmonics = inertial.R * harmonics;
   Eigen::Index largest = 0;

@@ -16,11 +16,11 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr int newton_steps_max = 20;
+constexpr int balance_newton_steps_max = 20;
 /// A derivative serves until a change is more than this part of the one before.
-constexpr double worn_out = 0.4;
+constexpr double balance_worn_out = 0.4;
 /// Largest change of X in one step, relative.
-constexpr double largest_change = 0.5;
+constexpr double largest_change_of_harmonics = 0.5;
 
 int n_harmonics_of(const HarmonicCycle& cycle)
 {
@@ -50,7 +50,7 @@ Eigen::MatrixXd projection(const Eigen::MatrixXd& gamma)
 }
 
 /// X D: the coefficients of dx / d(omega t).
-Eigen::MatrixXd derivative(const Eigen::MatrixXd& X)
+Eigen::MatrixXd phase_derivative(const Eigen::MatrixXd& X)
 {
   Eigen::MatrixXd X_tau = Eigen::MatrixXd::Zero(X.rows(), X.cols());
   for (Eigen::Index k = 1; 2 * k < X.cols(); ++k) {
@@ -66,7 +66,7 @@ Eigen::MatrixXd residual_of(AutonomousMotion& motion, const HarmonicCycle& cycle
                             const Eigen::MatrixXd& gamma)
 {
   const Eigen::MatrixXd P = projection(gamma), x = cycle.X * gamma;
-  Eigen::MatrixXd residual = cycle.omega * derivative(cycle.X);
+  Eigen::MatrixXd residual = cycle.omega * phase_derivative(cycle.X);
   for (Eigen::Index j = 0; j < gamma.cols(); ++j)
     residual.noalias() -= motion.rate_at(x.col(j)) * P.row(j);
   return residual;
@@ -97,10 +97,10 @@ Eigen::MatrixXd residual_derivative(AutonomousMotion& motion, const HarmonicCycl
 /// The equations for (X, ln omega): the derivative by X is bordered by that by ln omega, which
 /// makes omega as large as all else, and by the phase condition <X', dX> = 0.
 /// @param by_X  the derivative of the residual by X
-Eigen::MatrixXd bordered(const Eigen::MatrixXd& by_X, const HarmonicCycle& cycle)
+Eigen::MatrixXd bordered_by_omega(const Eigen::MatrixXd& by_X, const HarmonicCycle& cycle)
 {
   const Eigen::Index N = by_X.rows();
-  const Eigen::VectorXd border = cycle.omega * derivative(cycle.X).reshaped();
+  const Eigen::VectorXd border = cycle.omega * phase_derivative(cycle.X).reshaped();
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(N + 1, N + 1);
   J.topLeftCorner(N, N) = by_X;
   J.col(N).head(N) = border;
@@ -128,18 +128,18 @@ std::optional<HarmonicCycle> harmonic_balance(AutonomousMotion& motion, const Ha
   const Eigen::Index N = cycle.X.size();
   Eigen::MatrixXd by_X;
   double before = 0.0;  // the last change, none while the derivative is to be made
-  for (int i = 0; i < newton_steps_max; ++i) {
+  for (int i = 0; i < balance_newton_steps_max; ++i) {
     if (before == 0.0) by_X = residual_derivative(motion, cycle, gamma);
     Eigen::VectorXd rhs = Eigen::VectorXd::Zero(N + 1);
     rhs.head(N) = -residual_of(motion, cycle, gamma).reshaped();
-    const Eigen::VectorXd change = bordered(by_X, cycle).partialPivLu().solve(rhs);
+    const Eigen::VectorXd change = bordered_by_omega(by_X, cycle).partialPivLu().solve(rhs);
     const double size = change.head(N).norm() / cycle.X.norm() + std::abs(change[N]);
     if (!std::isfinite(size)) return std::nullopt;
-    const double damping = std::min(1.0, largest_change / size);
+    const double damping = std::min(1.0, largest_change_of_harmonics / size);
     cycle.X += damping * change.head(N).reshaped(cycle.X.rows(), cycle.X.cols());
     cycle.omega *= 1.0 + damping * change[N];
     if (size < resolution.tolerance) return cycle;
-    const bool worn = damping < 1.0 || (before > 0.0 && size > worn_out * before);
+    const bool worn = damping < 1.0 || (before > 0.0 && size > balance_worn_out * before);
     before = worn ? 0.0 : size;
   }
   return std::nullopt;
@@ -148,7 +148,7 @@ std::optional<HarmonicCycle> harmonic_balance(AutonomousMotion& motion, const Ha
 LinearBalance::LinearBalance(AutonomousMotion& motion, HarmonicCycle at, int n_samples)
     : at_(std::move(at)),
       gamma_(waves(n_harmonics_of(at_), n_samples)),
-      solver_(bordered(residual_derivative(motion, at_, gamma_), at_))
+      solver_(bordered_by_omega(residual_derivative(motion, at_, gamma_), at_))
 {}
 
 HarmonicCycle LinearBalance::change(AutonomousMotion& more, AutonomousMotion& less,
@@ -188,12 +188,12 @@ using Complex = std::complex<double>;
 constexpr double amplitude_min = 0.1;
 constexpr int n_amplitudes = 14;
 /// Samples of the forces in a period, and halvings of the interval in which growth ends.
-constexpr int n_samples = 16;
+constexpr int wave_samples = 16;
 constexpr int n_halvings = 3;
 /// What is tried when no averaged growth ends, in the same measure.
 constexpr double other_amplitudes[] = {2.0, 4.0, 1.0, 8.0, 16.0, 0.5, 0.25, 0.1};
 /// Of an eigenvector, in the same measure: it moves the pad in proportion to itself.
-constexpr double small = 1e-5;
+constexpr double small_motion = 1e-5;
 
 /// Displacement of the first upper pad for each unit of v, m.
 Complex pad_displacement(AutonomousMotion& motion, const Eigen::VectorXcd& v, double compression)
@@ -204,7 +204,7 @@ Complex pad_displacement(AutonomousMotion& motion, const Eigen::VectorXcd& v, do
     return (motion.first_contact(scale * x).upper.z - z_0) / scale;
   };
   const double first = std::abs(moved(v.real(), 1e-6)) + std::abs(moved(v.imag(), 1e-6));
-  const double scale = small * compression / first;
+  const double scale = small_motion * compression / first;
   return {moved(v.real(), scale), moved(v.imag(), scale)};
 }
 
@@ -241,12 +241,12 @@ HarmonicCycle cycle_of(const UnstableMotion& unstable, double amplitude)
 Complex averaged(AutonomousMotion& motion, const UnstableMotion& unstable, double amplitude)
 {
   Complex sum = 0.0;
-  for (int j = 0; j < n_samples; ++j) {
-    const Complex wave = std::polar(1.0, 2.0 * pi * j / n_samples);
+  for (int j = 0; j < wave_samples; ++j) {
+    const Complex wave = std::polar(1.0, 2.0 * pi * j / wave_samples);
     const Eigen::VectorXd x = amplitude * (unstable.v * wave).real();
     sum += std::conj(wave) * unstable.y.cwiseProduct(motion.rate_at(x)).sum();
   }
-  return (2.0 / n_samples / amplitude) * sum;
+  return (2.0 / wave_samples / amplitude) * sum;
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ double mean_period(const std::vector<double>& zeros)
 }
 
 /// The largest refined peak of |x|.
-double amplitude(const std::vector<double>& t, const std::vector<double>& x)
+double amplitude_of_record(const std::vector<double>& t, const std::vector<double>& x)
 {
   PeakFinder peaks;
   for (std::size_t i = 0; i < x.size(); ++i) peaks.add(t[i], x[i], t[1] - t[0]);
@@ -55,7 +55,7 @@ double half_travel(const History& tail)
   const double middle = 0.5 * (*low + *high);
   std::vector<double> x = tail.pad_displacement;
   for (double& value : x) value -= middle;
-  return amplitude(tail.t, x);
+  return amplitude_of_record(tail.t, x);
 }
 
 /// Relative change of the velocity envelope over the last tenth of the run: means of the first and
@@ -103,7 +103,7 @@ LimitCycle limit_cycle(const Transient& run)
         "periods");
   }
   const double frequency = 1.0 / mean_period(zeros);
-  const double velocity = amplitude(run.tail.t, run.tail.pad_velocity);
+  const double velocity = amplitude_of_record(run.tail.t, run.tail.pad_velocity);
   const double drift = relative_drift(run.envelope);
   const auto [N_low, N_high] = std::ranges::minmax_element(run.tail.N_up);
   LimitCycle cycle{.speed = run.speed,

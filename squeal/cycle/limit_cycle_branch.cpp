@@ -67,7 +67,7 @@ class BranchFollower {
 /// Lengths of steps along the branch, whose unit is a change of the amplitude by itself.
 constexpr double length_first = 0.05, length_max = 0.3, length_min = 1e-4;
 
-constexpr int steps_max = 2000;
+constexpr int steps_of_branch_max = 2000;
 
 /// A cycle below this fraction of the largest one of the branch is its end at rest.
 constexpr double end_at_rest = 1e-3;
@@ -82,7 +82,7 @@ double slope(const ArcPoint& point)
 }
 
 /// The quantities of a cycle that a branch stores.
-BranchPoint point_of(const DirectLimitCycle& cycle)
+BranchPoint point_of_cycle(const DirectLimitCycle& cycle)
 {
   return {.speed = cycle.speed,
           .frequency_Hz = cycle.frequency_Hz,
@@ -114,7 +114,7 @@ LimitCycleBranch BranchFollower::from_point(ArcPoint point, const Progress& prog
   LimitCycleBranch part;
   const double direction = slope(point);
   double length = length_first, largest = point.at.x.norm();
-  for (int i = 0; i < steps_max; ++i) {
+  for (int i = 0; i < steps_of_branch_max; ++i) {
     if (progress) progress(progress_at(point.speed, direction));
     const auto next = next_on_arc(motion_, point, length);
     if (!next) {
@@ -176,7 +176,8 @@ void BranchFollower::add_speeds(const ArcPoint& a, const ArcPoint& b, LimitCycle
 void BranchFollower::add(const CycleStart& near, double speed,
                          std::vector<BranchPoint>& points) const
 {
-  if (const auto cycle = limit_cycle_near(brake_, speed, near)) points.push_back(point_of(*cycle));
+  if (const auto cycle = limit_cycle_near(brake_, speed, near))
+    points.push_back(point_of_cycle(*cycle));
 }
 
 std::optional<BranchPoint> BranchFollower::as_it_is(const ArcPoint& point) const
@@ -184,7 +185,7 @@ std::optional<BranchPoint> BranchFollower::as_it_is(const ArcPoint& point) const
   const std::unique_ptr<AutonomousMotion> motion = brake_.motion(point.speed);
   const auto orbit = orbit_as_it_is(*motion, point.at);
   if (!orbit) return std::nullopt;
-  return point_of(measured_cycle(brake_, *motion, *orbit, point.speed));
+  return point_of_cycle(measured_cycle(brake_, *motion, *orbit, point.speed));
 }
 
 /// The highest speed of the range at which the sliding brake is unstable.
@@ -203,7 +204,7 @@ LimitCycleBranch branch_through(const BranchFollower& follower, const DirectLimi
   LimitCycleBranch branch = follower.from_cycle(start, -1.0, progress);
   std::ranges::reverse(branch.points);
   std::ranges::reverse(branch.folds);
-  branch.points.push_back(point_of(start));
+  branch.points.push_back(point_of_cycle(start));
   if (start.speed < range.to) append(branch, follower.from_cycle(start, 1.0, progress));
   return branch;
 }

@@ -39,8 +39,9 @@ std::optional<PeriodicOrbit> orbit_from(AutonomousMotion& motion, const Harmonic
 }
 
 /// The cycle of an orbit, unless that is rest.
-std::optional<DirectLimitCycle> cycle_of(const Brake& brake, AutonomousMotion& motion,
-                                         const std::optional<PeriodicOrbit>& orbit, double speed)
+std::optional<DirectLimitCycle> measured_direct_cycle(const Brake& brake, AutonomousMotion& motion,
+                                                      const std::optional<PeriodicOrbit>& orbit,
+                                                      double speed)
 {
   if (!orbit) return std::nullopt;
   DirectLimitCycle cycle = measured_cycle(brake, motion, *orbit, speed);
@@ -62,7 +63,8 @@ DirectLimitCycle limit_cycle_direct(const Brake& brake, double speed)
                     speed, growth));
   }
   for (const CycleGuess& start : cycle_guesses(*motion, A, brake.rest_compression())) {
-    if (auto cycle = cycle_of(brake, *motion, orbit_from(*motion, start.cycle), speed)) {
+    if (auto cycle =
+            measured_direct_cycle(brake, *motion, orbit_from(*motion, start.cycle), speed)) {
       cycle->way = "from the eigenvector";
       return *cycle;
     }
@@ -87,7 +89,7 @@ std::optional<DirectLimitCycle> limit_cycle_near(const Brake& brake, double spee
                                                  const CycleStart& start)
 {
   const std::unique_ptr<AutonomousMotion> motion = brake.motion(speed);
-  return cycle_of(brake, *motion, periodic_orbit(*motion, start), speed);
+  return measured_direct_cycle(brake, *motion, periodic_orbit(*motion, start), speed);
 }
 
 namespace {
@@ -95,8 +97,8 @@ namespace {
 /// Where the search for the Hopf point begins, relative to the speed.
 constexpr double lowest_speed = 0.01;
 /// Steps along the branch, as branch_follower.cpp takes them.
-constexpr double length_first = 0.05, length_max = 0.3, length_min = 1e-3;
-constexpr int steps_max = 60;
+constexpr double arc_first = 0.05, arc_max = 0.3, arc_min = 1e-3;
+constexpr int steps_of_search_max = 60;
 /// Where the branch is left, relative to the speed, and to the small cycle with which it begins.
 constexpr double highest_speed = 2.0, at_rest = 0.05;
 
@@ -164,8 +166,8 @@ Detour cycle_by_continuation(const Brake& brake, double speed)
   auto point = cycle_at_hopf(brake, motion, *limit);
   if (!point) return {{}, "no small cycle was found at " + from};
   const double smallest = at_rest * point->at.x.norm();
-  double length = length_first;
-  for (int i = 0; i < steps_max && length > length_min; ++i) {
+  double length = arc_first;
+  for (int i = 0; i < steps_of_search_max && length > arc_min; ++i) {
     const auto next = next_on_arc(motion, *point, length);
     if (!next) {
       length *= 0.5;
@@ -179,7 +181,7 @@ Detour cycle_by_continuation(const Brake& brake, double speed)
       if (cycle) return {std::move(cycle), "by continuation from " + from};
     }
     point = next;
-    length = std::min(1.5 * length, length_max);
+    length = std::min(1.5 * length, arc_max);
     if (point->at.x.norm() < smallest) {
       return {{},
               fmt::format("the branch from {} ends at rest at {:.6g} rad/s", from, point->speed)};
@@ -220,13 +222,14 @@ namespace {
 
 /// Points of the cycle from which peaks, amplitudes and energies are taken: a parabola through
 /// three of them misses the peak of a sine by 1e-8.
-constexpr int n_samples = 256;
+constexpr int samples_of_period = 256;
 /// Of two of these parts, for the lowest speed of sliding.
 constexpr int n_finer = 40;
 
 /// What the first pad pair does during one period.
 struct PadSamples {
-  Eigen::VectorXd z{n_samples}, z_dot{n_samples}, N{n_samples}, slip_speed{n_samples};
+  Eigen::VectorXd z{samples_of_period}, z_dot{samples_of_period}, N{samples_of_period},
+      slip_speed{samples_of_period};
 
   void set(int i, const ContactResult<double>& pads)
   {
@@ -244,8 +247,8 @@ double lowest_slip(AutonomousMotion& motion, const PadSamples& pad, const Eigen:
 {
   Eigen::Index i = 0;
   double lowest = pad.slip_speed.minCoeff(&i);
-  const CycleStart about{states.col((i + n_samples - 1) % n_samples),
-                         2.0 * orbit.at.period / n_samples};
+  const CycleStart about{states.col((i + samples_of_period - 1) % samples_of_period),
+                         2.0 * orbit.at.period / samples_of_period};
   const Eigen::MatrixXd finer = states_over_period(motion, about, n_finer, orbit.tolerance);
   for (int k = 0; k < n_finer; ++k) {
     const ContactResult<double> at = motion.first_contact(finer.col(k));
@@ -294,13 +297,14 @@ DirectLimitCycle measured_with_body(const FlexibleDisc& brake, SlidingDisc& moti
                                     const PeriodicOrbit& orbit)
 {
   const InertialDisc& disc = brake.inertial();
-  const Eigen::MatrixXd states = states_over_period(motion, orbit.at, n_samples, orbit.tolerance);
+  const Eigen::MatrixXd states =
+      states_over_period(motion, orbit.at, samples_of_period, orbit.tolerance);
   const Eigen::Index n = disc.n_modes();
   PadSamples pad;
   CycleEnergy energy = no_energy(motion.n_pads());
   Eigen::VectorXcd fundamental = Eigen::VectorXcd::Zero(n);
-  const double step = orbit.at.period / n_samples;
-  for (int i = 0; i < n_samples; ++i) {
+  const double step = orbit.at.period / samples_of_period;
+  for (int i = 0; i < samples_of_period; ++i) {
     const auto x = states.col(i);
     const SlidingDisc::Sample now = motion.sample(x);
     pad.set(i, now.first);
@@ -308,8 +312,8 @@ DirectLimitCycle measured_with_body(const FlexibleDisc& brake, SlidingDisc& moti
     energy.normal += step * now.power.normal;
     energy.damping += step * now.power.damping;
     energy.heat += step * now.power.heat;
-    energy.stored += 0.5 * x.squaredNorm() / n_samples;
-    fundamental += std::polar(2.0 / n_samples, -2.0 * pi * i / n_samples) *
+    energy.stored += 0.5 * x.squaredNorm() / samples_of_period;
+    fundamental += std::polar(2.0 / samples_of_period, -2.0 * pi * i / samples_of_period) *
                    x.head(n).cwiseQuotient(disc.omega);
   }
   DirectLimitCycle cycle = seen_at_pad(pad, orbit, motion.speed());
@@ -328,9 +332,10 @@ DirectLimitCycle measured_cycle(const Brake& brake, AutonomousMotion& motion,
 {
   if (const FlexibleDisc* body = brake.body())
     return measured_with_body(*body, dynamic_cast<SlidingDisc&>(motion), orbit);
-  const Eigen::MatrixXd states = states_over_period(motion, orbit.at, n_samples, orbit.tolerance);
+  const Eigen::MatrixXd states =
+      states_over_period(motion, orbit.at, samples_of_period, orbit.tolerance);
   PadSamples pad;
-  for (int i = 0; i < n_samples; ++i) pad.set(i, motion.first_contact(states.col(i)));
+  for (int i = 0; i < samples_of_period; ++i) pad.set(i, motion.first_contact(states.col(i)));
   DirectLimitCycle cycle = seen_at_pad(pad, orbit, speed);
   cycle.slip_speed_min = lowest_slip(motion, pad, states, orbit);
   cycle.n_contact_evaluations = motion.n_evaluations();

@@ -104,16 +104,16 @@ constexpr double exponentials_per_period = 36.0;
 /// Of the derivatives that only lead Newton's method, whose errors of 1e-3 it outruns.
 constexpr double rough_exponentials_per_period = 12.0;
 constexpr double defect_max = 1e-6;
-constexpr int newton_steps_max = 25;
+constexpr int orbit_newton_steps_max = 25;
 /// Change of x_0, relative, from which on the step with the fine derivative is the last one: it
 /// leaves the square of what the one before left.
 constexpr double nearly_converged = 1e-5;
 /// Largest change of x_0, relative, by a step that settles an orbit beside a fold or a Hopf point.
 constexpr double settling_change = 1e-2;
 /// Largest change of x_0 in one step, relative.
-constexpr double largest_change = 0.5;
+constexpr double largest_change_of_orbit = 0.5;
 /// A derivative that does not reduce the change by this factor is computed anew.
-constexpr double worn_out = 0.1;
+constexpr double orbit_worn_out = 0.1;
 
 /// Of the longest step, relative to that at the first tolerance.
 double shortening(double tolerance)
@@ -242,7 +242,7 @@ Eigen::VectorXd newton_step(AutonomousMotion& motion, const CycleStart& at, cons
 }
 
 /// Size of a change (dx, dT / T) of an orbit, relative.
-double size_of(const Eigen::VectorXd& change, const CycleStart& at)
+double size_of_change(const Eigen::VectorXd& change, const CycleStart& at)
 {
   const Eigen::Index n = at.x.size();
   return change.head(n).norm() / at.x.norm() + std::abs(change[n]);
@@ -267,20 +267,20 @@ std::optional<ClosedOrbit> shoot(AutonomousMotion& motion, CycleStart at)
   Flow now{};
   bool renew = true;
   double before = 1.0;
-  for (int i = 1; i <= newton_steps_max; ++i) {
+  for (int i = 1; i <= orbit_newton_steps_max; ++i) {
     if (renew)
       now = flow_or_nowhere(motion, at, tolerance, rough);
     else
       now.end = end_of(motion, at, tolerance);
     if (!now.end.allFinite() || !now.derivative.allFinite()) return std::nullopt;
     const Eigen::VectorXd change = newton_step(motion, at, now);
-    const double size = size_of(change, at);
+    const double size = size_of_change(change, at);
     if (!std::isfinite(size)) return std::nullopt;
-    const double damping = std::min(1.0, largest_change / size);
+    const double damping = std::min(1.0, largest_change_of_orbit / size);
     at = moved(at, damping * change);
     if (!(at.period > 0.0)) return std::nullopt;
     if (size < nearly_converged) return ClosedOrbit{at, i};
-    renew = damping < 1.0 || size > (renew ? 1e-2 : worn_out * before);
+    renew = damping < 1.0 || size > (renew ? 1e-2 : orbit_worn_out * before);
     before = size;
   }
   return std::nullopt;
@@ -301,7 +301,7 @@ std::optional<PeriodicOrbit> after_step(AutonomousMotion& motion, const CycleSta
   if (!now.end.allFinite() || !now.derivative.allFinite()) return std::nullopt;
   // The end moves with the tolerance; with the fine derivative one step takes it back.
   const Eigen::VectorXd change = newton_step(motion, from, now);
-  if (!(size_of(change, from) < largest)) return std::nullopt;
+  if (!(size_of_change(change, from) < largest)) return std::nullopt;
   return PeriodicOrbit{moved(from, change), multipliers_of(motion, from, now), 1, tolerance};
 }
 
@@ -372,7 +372,7 @@ std::optional<CycleStart> sharper_start(AutonomousMotion& motion, const CycleSta
   const Flow now = flow_or_nowhere(motion, at, sharp_tolerance, fine(first_tolerance));
   if (!now.end.allFinite() || !now.derivative.allFinite()) return std::nullopt;
   const Eigen::VectorXd change = newton_step(motion, at, now);
-  if (!(size_of(change, at) < nearly_converged)) return std::nullopt;
+  if (!(size_of_change(change, at) < nearly_converged)) return std::nullopt;
   return moved(at, change);
 }
 

@@ -303,7 +303,7 @@ void add_contact(std::vector<AssemblyNumber>& numbers, const FaceContact& contac
   }
 }
 
-void add_disc(std::vector<AssemblyNumber>& numbers, const AssemblyOptions& options)
+void add_disc_numbers(std::vector<AssemblyNumber>& numbers, const AssemblyOptions& options)
 {
   if (!options.planes) {
     numbers.push_back({.key = "thickness",
@@ -335,7 +335,7 @@ std::vector<AssemblyNumber> assembly_numbers(const AssemblyOptions& options)
   for (std::size_t i = 0; i < options.joints.size(); ++i) add_joint(numbers, options.joints[i], i);
   for (std::size_t i = 0; i < options.contacts.size(); ++i)
     add_contact(numbers, options.contacts[i], i);
-  add_disc(numbers, options);
+  add_disc_numbers(numbers, options);
   return numbers;
 }
 

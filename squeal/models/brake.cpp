@@ -15,7 +15,7 @@ namespace chladni::squeal {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// "frequency of the pair with 3 nodal diameters at 1686.2 Hz"
 std::string name_of_mode(int nodal_diameters, double f_Hz)

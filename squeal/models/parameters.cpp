@@ -62,7 +62,7 @@ double* of_shim(PadPair& pad)
 
 constexpr auto k = &Suspension::stiffness, d = &Suspension::damping;
 
-constexpr std::array pad_rows = {
+constexpr std::array parameters_of_pads = {
     PadRow{"preload", [](PadPair& pad) { return &pad.preload; }},
     PadRow{"stiffness", [](PadPair& pad) { return &pad.stiffness; }},
     PadRow{"damping", [](PadPair& pad) { return &pad.damping; }},
@@ -192,7 +192,7 @@ SquealOptions with_parameter(SquealOptions options, MapParameter parameter, doub
   const std::string_view name = parameter.name;
   if (name.starts_with(of_brake) || name.starts_with(of_pads))
     return with_friction(std::move(options), parameter, value);
-  for (const PadRow& row : pad_rows)
+  for (const PadRow& row : parameters_of_pads)
     if (row.name == parameter.name) {
       require_one_pad_to_turn(parameter);
       set_parameter(set_in_pads(options, row, parameter.pad, value), parameter, row.unit * value);
@@ -218,7 +218,7 @@ std::vector<ParameterValue> parameter_values(SquealOptions options)
   }
   for (std::size_t i = 0; i < options.pads.size(); ++i) {
     const int number = static_cast<int>(i) + 1;
-    for (const PadRow& row : pad_rows)
+    for (const PadRow& row : parameters_of_pads)
       if (const double* const at = row.at(options.pads[i]))
         values.push_back({{row.name, number}, *at / row.unit});
     if (options.pads[i].friction) add_own_friction(values, *options.pads[i].friction, number);

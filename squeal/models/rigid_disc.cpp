@@ -289,8 +289,8 @@ PadState<double> sum(const PadState<double>& a, const PadState<double>& b)
 }
 
 /// The pads to first order in x: values at rest and their derivative along x.
-ContactResult<double> linear_pads(const RigidDisc& disc, Drive drive, const Eigen::VectorXd& x,
-                                  double speed)
+ContactResult<double> linear_rigid_pads(const RigidDisc& disc, Drive drive,
+                                        const Eigen::VectorXd& x, double speed)
 {
   const Eigen::VectorXcd along = Complex(0.0, complex_step) * x.cast<Complex>();
   const RigidAcceleration<Complex> a = acceleration(disc, drive, along, speed);
@@ -352,7 +352,7 @@ namespace {
 
 using Places = std::vector<std::pair<std::string_view, double*>>;
 
-Places places_in(RigidDisc& disc)
+Places places_in_disc(RigidDisc& disc)
 {
   return {{"friction", &disc.friction.kinetic},    {"preload", &disc.preload},
           {"stiffness", &disc.spring.linear},      {"damping", &disc.damping},
@@ -371,7 +371,7 @@ std::unique_ptr<Brake> RigidDiscBrake::with(MapParameter parameter, double value
     return std::make_unique<RigidDiscBrake>(changed);
   }
   double* at = nullptr;
-  for (const auto& [name, place] : places_in(changed.disc))
+  for (const auto& [name, place] : places_in_disc(changed.disc))
     if (name == parameter.name && parameter.pad <= 1) at = place;
   set_parameter(at, parameter, value);
   return std::make_unique<RigidDiscBrake>(changed);
@@ -381,7 +381,7 @@ std::vector<ParameterValue> RigidDiscBrake::parameters() const
 {
   RigidDisc disc = study_.disc;
   std::vector<ParameterValue> values = friction_parameters(disc.friction);
-  for (const auto& [name, place] : places_in(disc)) {
+  for (const auto& [name, place] : places_in_disc(disc)) {
     const bool is_of_pad = name == "preload" || name == "stiffness" || name == "damping";
     if (name != "friction") values.push_back({{name, is_of_pad ? 1 : 0}, *place});
   }
@@ -419,7 +419,7 @@ Eigen::VectorXd RigidDiscBrake::rate(const Eigen::VectorXd& x, double speed) con
 ContactResult<double> RigidDiscBrake::contact(const Eigen::VectorXd& x, double speed) const
 {
   return study_.equations == RigidEquations::linear
-             ? linear_pads(study_.disc, study_.drive, x, speed)
+             ? linear_rigid_pads(study_.disc, study_.drive, x, speed)
              : nonlinear_pads(study_.disc, study_.drive, x, speed);
 }
 

@@ -105,16 +105,16 @@ struct PointForce {
 };
 
 /// Brings q to the size of its rates.
-double scale_of(const SlidingMasses& s)
+double scale_of_masses(const SlidingMasses& s)
 {
   return std::sqrt(s.K(0, 0) / s.M[0]);
 }
 
 template <class Scalar>
-MotionOfMasses<Scalar> motion_of(const SlidingMasses& s, const Eigen::VectorX<Scalar>& x)
+MotionOfMasses<Scalar> motion_of_masses(const SlidingMasses& s, const Eigen::VectorX<Scalar>& x)
 {
   const Eigen::Index n = s.M.size();
-  return {x.head(n) / scale_of(s), x.tail(n)};
+  return {x.head(n) / scale_of_masses(s), x.tail(n)};
 }
 
 /// W . v
@@ -146,8 +146,8 @@ double friction_at_rest(const SlidingMasses& s, const SlidingPoint& point, doubl
 
 /// x' of (w q, q') with the forces that `force_of(i, point)` yields.
 template <class Scalar, class Forces>
-Eigen::VectorX<Scalar> rate_of(const SlidingMasses& s, const MotionOfMasses<Scalar>& m,
-                               double speed, const Forces& force_of)
+Eigen::VectorX<Scalar> rate_of_masses(const SlidingMasses& s, const MotionOfMasses<Scalar>& m,
+                                      double speed, const Forces& force_of)
 {
   FewVector<Scalar> Q = -(s.D.cast<Scalar>() * m.q_dot) - s.K.cast<Scalar>() * m.q;
   for (std::size_t i = 0; i < s.points.size(); ++i) {
@@ -157,7 +157,7 @@ Eigen::VectorX<Scalar> rate_of(const SlidingMasses& s, const MotionOfMasses<Scal
          point.normal.cast<Scalar>() * (force.N - point.preload);
   }
   Eigen::VectorX<Scalar> rate(2 * s.M.size());
-  rate << scale_of(s) * m.q_dot, Q.cwiseQuotient(s.M.cast<Scalar>());
+  rate << scale_of_masses(s) * m.q_dot, Q.cwiseQuotient(s.M.cast<Scalar>());
   return rate;
 }
 
@@ -173,8 +173,8 @@ template <class Scalar>
 Eigen::VectorX<Scalar> rate_by_law(const SlidingMasses& s, const Eigen::VectorX<Scalar>& x,
                                    double speed)
 {
-  const MotionOfMasses<Scalar> m = motion_of(s, x);
-  return rate_of(s, m, speed, [&](std::size_t /*i*/, const SlidingPoint& point) {
+  const MotionOfMasses<Scalar> m = motion_of_masses(s, x);
+  return rate_of_masses(s, m, speed, [&](std::size_t /*i*/, const SlidingPoint& point) {
     return force_by_law(s, point, m, speed);
   });
 }
@@ -194,7 +194,7 @@ PadState<double> pad_at(const SlidingMasses& s, const SlidingPoint& point,
 
 ContactResult<double> pads_at(const SlidingMasses& s, const Eigen::VectorXd& x, double speed)
 {
-  const MotionOfMasses<double> m = motion_of(s, x);
+  const MotionOfMasses<double> m = motion_of_masses(s, x);
   return {.upper = pad_at(s, s.points.front(), m, speed),
           .lower = pad_at(s, s.points.back(), m, speed)};
 }
@@ -208,7 +208,7 @@ struct SlidingEquationsAt {
   SwitchedRate<Scalar> evaluate(const Eigen::VectorX<Scalar>& x,
                                 const Eigen::VectorXd& branches) const
   {
-    const MotionOfMasses<Scalar> m = motion_of(s, x);
+    const MotionOfMasses<Scalar> m = motion_of_masses(s, x);
     Eigen::VectorX<Scalar> pressure(static_cast<Eigen::Index>(s.points.size()));
     const auto force_of = [&](std::size_t i, const SlidingPoint& point) {
       const auto j = static_cast<Eigen::Index>(i);
@@ -218,14 +218,14 @@ struct SlidingEquationsAt {
         return AxialForce<Scalar>{g == 0.0 ? Scalar(0.0) : S, g};
       });
     };
-    Eigen::VectorX<Scalar> f = rate_of(s, m, speed, force_of);
+    Eigen::VectorX<Scalar> f = rate_of_masses(s, m, speed, force_of);
     return {std::move(f), std::move(pressure)};
   }
   ContactResult<double> contact(const Eigen::VectorXd& x) const { return pads_at(s, x, speed); }
 };
 
 /// A bound of the frequencies of the masses in contact, rad/s: Gershgorin's of M^-1/2 K M^-1/2.
-double highest_frequency(const SlidingMasses& s)
+double highest_frequency_of_masses(const SlidingMasses& s)
 {
   FewMatrix K = s.K;
   for (const SlidingPoint& point : s.points)
@@ -291,7 +291,7 @@ std::unique_ptr<AutonomousMotion> SlidingBrake::motion(double speed) const
       ModelMotion<SlidingEquationsAt>::Properties{
           .size = size(),
           .n_switches = static_cast<Eigen::Index>(masses_.points.size()),
-          .omega_highest = highest_frequency(masses_),
+          .omega_highest = highest_frequency_of_masses(masses_),
           .law = masses_.law});
 }
 
@@ -314,7 +314,7 @@ ContactResult<double> SlidingBrake::contact(const Eigen::VectorXd& x, double spe
 
 Eigen::VectorXd SlidingBrake::start(double displacement) const
 {
-  return scale_of(masses_) * displacement * Eigen::VectorXd::Unit(size(), masses_.observed);
+  return scale_of_masses(masses_) * displacement * Eigen::VectorXd::Unit(size(), masses_.observed);
 }
 
 SlidingMasses sliding_masses(const Oscillator& o)

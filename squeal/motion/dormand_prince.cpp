@@ -15,9 +15,9 @@ namespace {
 
 constexpr double safety = 0.9, shrink_max = 0.2, grow_max = 6.0;
 /// Changes of side at one time beyond which the motion is taken for chatter.
-constexpr int stuck_max = 64;
+constexpr int stuck_steps_max = 64;
 /// Parts of a step at which switching functions are looked at.
-constexpr int n_parts = 8;
+constexpr int parts_of_step = 8;
 /// A switching function whose stages stay above this part of their range does not cross zero.
 constexpr double far_from_zero = 0.25;
 /// Of the time of a crossing, relative to the step.
@@ -144,11 +144,11 @@ void DormandPrince::cross(const Crossing& crossing, double step)
     K_.col(12) = slope(12, end_);
     extend();
     step_next_ = step;
-  } else if (++n_stuck_ > stuck_max) {
+  } else if (++n_stuck_ > stuck_steps_max) {
     throw StuckContact(fmt::format(
         "the contact of a pad changes more than {} times at t = {:.9g} s; give the pads "
         "some damping, or take integrator = \"splitting\"",
-        stuck_max, t_));
+        stuck_steps_max, t_));
   }
   motion_.set_side(crossing.i, side);
   if (events_.size() < events_max) events_.push_back({t_, crossing.i, side});
@@ -205,11 +205,11 @@ std::optional<DormandPrince::Crossing> DormandPrince::first_crossing()
     if (!may_cross(i)) continue;
     if (samples.size() == 0) {
       extend();
-      samples.resize(s_.rows(), n_parts + 1);
+      samples.resize(s_.rows(), parts_of_step + 1);
       samples.col(0) = s_.col(0);
-      samples.col(n_parts) = s_.col(12);
-      for (int k = 1; k < n_parts; ++k) {
-        motion_.rate(t_begin_ + step_ * k / n_parts, interpolated(double(k) / n_parts));
+      samples.col(parts_of_step) = s_.col(12);
+      for (int k = 1; k < parts_of_step; ++k) {
+        motion_.rate(t_begin_ + step_ * k / parts_of_step, interpolated(double(k) / parts_of_step));
         samples.col(k) = motion_.switches();
       }
     }
@@ -225,15 +225,16 @@ std::optional<double> DormandPrince::crossing_of(Eigen::Index i, const Eigen::Ma
   const Eigen::VectorXd s = motion_.side(i) * samples.row(i).transpose();
   const auto passed = [&](double x) { return -motion_.side(i) * switch_at(i, x); };
   double inside = -1.0;  // the last fraction at which the function was on its side
-  for (int k = 0; k <= n_parts; ++k) {
-    const double x = double(k) / n_parts;
+  for (int k = 0; k <= parts_of_step; ++k) {
+    const double x = double(k) / parts_of_step;
     if (k > 0 && s[k] < 0.0) return inside < 0.0 ? 0.0 : root(passed, inside, x, crossing_error);
     if (s[k] > 0.0) inside = x;
-    if (k == 0 || k == n_parts || s[k] > s[k - 1] || s[k] > s[k + 1] || inside < 0.0) continue;
+    if (k == 0 || k == parts_of_step || s[k] > s[k - 1] || s[k] > s[k + 1] || inside < 0.0)
+      continue;
     // A minimum on its side: between the samples the function may be on the other one.
-    const double lowest = x + vertex(s[k - 1], s[k], s[k + 1]) / n_parts;
+    const double lowest = x + vertex(s[k - 1], s[k], s[k + 1]) / parts_of_step;
     if (passed(lowest) > 0.0) {
-      const double before = lowest > x ? x : double(k - 1) / n_parts;
+      const double before = lowest > x ? x : double(k - 1) / parts_of_step;
       return s[k - 1] > 0.0 || lowest > x ? root(passed, before, lowest, crossing_error) : 0.0;
     }
   }

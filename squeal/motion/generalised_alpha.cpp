@@ -10,10 +10,10 @@ namespace {
 
 /// Remaining error of Newton's method, relative to the tolerance of a step.
 constexpr double newton_part = 1e-3;
-constexpr int newton_steps_max = 8;
+constexpr int alpha_newton_steps_max = 8;
 /// A Newton step may be at most this part of the one before, or the tangent is made anew.
 constexpr double contraction = 0.2;
-constexpr double safety = 0.9, shrink_max = 0.3, grow_max = 2.0;
+constexpr double alpha_safety = 0.9, alpha_shrink_max = 0.3, alpha_grow_max = 2.0;
 /// A step is kept rather than enlarged by less, since a new one needs a new tangent.
 constexpr double worth_growing = 1.25;
 /// The error estimate of an oscillation swings with it; its peak is remembered with this factor.
@@ -102,7 +102,7 @@ bool GeneralisedAlpha::solve(double step)
   bool fresh = step != step_factorized_;
   double last = 0.0;
   a_end_ = a_;
-  for (int i = 0; i < newton_steps_max; ++i) {
+  for (int i = 0; i < alpha_newton_steps_max; ++i) {
     place_end(step);
     stage_ = (1.0 - alpha_f_) * end_ + alpha_f_ * y_;
     const Eigen::VectorXd residual =
@@ -145,14 +145,15 @@ void GeneralisedAlpha::advance()
     }
     const double error = try_step(step);
     if (!(error <= 1.0)) {
-      const double factor = std::isfinite(error) ? safety * std::cbrt(1.0 / error) : shrink_max;
-      step_next_ = step * std::max(shrink_max, factor);
+      const double factor =
+          std::isfinite(error) ? alpha_safety * std::cbrt(1.0 / error) : alpha_shrink_max;
+      step_next_ = step * std::max(alpha_shrink_max, factor);
       error_held_ = 1.0;
       ++cost_.n_rejected;
       continue;
     }
     error_held_ = std::max(error, forgetting * error_held_);
-    const double factor = std::min(grow_max, safety * std::cbrt(1.0 / error_held_));
+    const double factor = std::min(alpha_grow_max, alpha_safety * std::cbrt(1.0 / error_held_));
     begin_ = std::exchange(y_, end_);
     a_begin_ = std::exchange(a_, a_end_);
     t_ += step;

@@ -20,7 +20,7 @@ using files::Reader, files::Writer;
 
 namespace {
 
-constexpr std::int64_t file_version = 1;
+constexpr std::int64_t results_version = 1;
 
 Eigen::MatrixXcd complex_matrix(const Eigen::MatrixXd& re, const Eigen::MatrixXd& im)
 {
@@ -132,7 +132,7 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
 {
   Writer file(path.string());
   file.attribute("/", "format", results_format);
-  file.attribute("/", "version", file_version);
+  file.attribute("/", "version", results_version);
   mbs_export::file_parts::write_provenance(file, provenance);
   write_optional(file, "largest_split", results.largest_split, "1");
   write_optional(file, "wheel_radius", results.wheel_radius, "m");
@@ -166,7 +166,7 @@ SquealResults read_results(const std::filesystem::path& path)
 
 SquealResults read_results(const Reader& file)
 {
-  file.expect_format(results_format, file_version);
+  file.expect_format(results_format, results_version);
   SquealResults results;
   results.largest_split = read_optional(file, "largest_split");
   results.wheel_radius = read_optional(file, "wheel_radius");

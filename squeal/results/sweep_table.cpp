@@ -45,7 +45,7 @@ std::string name_of_variant(const SweepTable& sweep, std::size_t i)
 
 namespace {
 
-constexpr std::int64_t file_version = 1;
+constexpr std::int64_t sweep_version = 1;
 
 void write_failures(Writer& file, const SweepTable& sweep)
 {
@@ -100,7 +100,7 @@ void write_sweep(const std::filesystem::path& path, const SweepTable& sweep,
 {
   Writer file(path.string());
   file.attribute("/", "format", sweep_format);
-  file.attribute("/", "version", file_version);
+  file.attribute("/", "version", sweep_version);
   mbs_export::file_parts::write_provenance(file, provenance);
   file.write("inputs", sweep.inputs);
   file.write("keys", sweep.keys);
@@ -123,7 +123,7 @@ void write_sweep(const std::filesystem::path& path, const SweepTable& sweep,
 
 SweepTable read_sweep(const Reader& file)
 {
-  file.expect_format(sweep_format, file_version);
+  file.expect_format(sweep_format, sweep_version);
   const std::vector<std::string> keys = file.texts("keys");
   const Eigen::MatrixXd values = file.matrix("values", {files::any, std::ssize(keys)});
   SweepTable sweep = empty_sweep(keys, values, read_columns(file));

@@ -183,7 +183,7 @@ std::vector<Eigen::MatrixXcd> mode_shapes(const InertialDisc& disc, const Squeal
 
 namespace {
 
-constexpr Index small = 300, block = 4;
+constexpr Index small_order = 300, block_width = 4;
 
 bool is_in_band(const Complex& lambda, double highest)
 {
@@ -228,7 +228,7 @@ MatrixXcd first_block(Index n)
 {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
-  MatrixXcd V(n, block);
+  MatrixXcd V(n, block_width);
   for (Complex& entry : V.reshaped()) entry = {normal(random), normal(random)};
   return V;
 }
@@ -251,13 +251,13 @@ class InverseSpace {
   void grow(Index size)
   {
     while (W_.cols() < size) {
-      const MatrixXcd image = lu_.solve(V_.rightCols(block));
-      W_.conservativeResize(V_.rows(), W_.cols() + block);
-      W_.rightCols(block) = image;
+      const MatrixXcd image = lu_.solve(V_.rightCols(block_width));
+      W_.conservativeResize(V_.rows(), W_.cols() + block_width);
+      W_.rightCols(block_width) = image;
       MatrixXcd next = image;
       for (int twice = 0; twice < 2; ++twice) next -= V_ * (V_.adjoint() * next);
-      V_.conservativeResize(V_.rows(), V_.cols() + block);
-      V_.rightCols(block) = orthonormal_columns(next);
+      V_.conservativeResize(V_.rows(), V_.cols() + block_width);
+      V_.rightCols(block_width) = orthonormal_columns(next);
     }
   }
 
@@ -309,7 +309,7 @@ std::optional<BandModes> known_modes(const InverseSpace& space, const MatrixXd& 
 BandModes band_modes(const MatrixXd& A, double highest)
 {
   const Index n = A.rows();
-  if (n <= small || has_far_from_axis(A, highest)) return by_qr(A, highest);
+  if (n <= small_order || has_far_from_axis(A, highest)) return by_qr(A, highest);
   const Complex sigma(0.0, 0.5 * highest);
   InverseSpace space(A, sigma);
   for (Index size = 80; size <= n / 2; size += size / 2) {

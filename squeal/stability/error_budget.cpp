@@ -18,7 +18,7 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 namespace {
 
 /// Relative; central differences of the state matrix are exact to its square.
-constexpr double step = 1e-5;
+constexpr double part_of_value = 1e-5;
 
 /// An oscillation, and how its growth changes.
 class GrowingMotion {
@@ -35,9 +35,9 @@ class GrowingMotion {
   /// Of the growth, by the speed; 1/s for each rad/s.
   double by_speed() const
   {
-    return change(state_matrix(disc_, options_, speed_ * (1.0 + step)),
-                  state_matrix(disc_, options_, speed_ * (1.0 - step))) /
-           (2.0 * step * speed_);
+    return change(state_matrix(disc_, options_, speed_ * (1.0 + part_of_value)),
+                  state_matrix(disc_, options_, speed_ * (1.0 - part_of_value))) /
+           (2.0 * part_of_value * speed_);
   }
 
   /// By the logarithm of what a change of the disc scales, [1].
@@ -48,8 +48,9 @@ class GrowingMotion {
       scale(disc, factor);
       return state_matrix(disc, options_, speed_);
     };
-    return Eigen::VectorXd::Constant(1,
-                                     change(scaled(1.0 + step), scaled(1.0 - step)) / (2.0 * step));
+    return Eigen::VectorXd::Constant(
+        1,
+        change(scaled(1.0 + part_of_value), scaled(1.0 - part_of_value)) / (2.0 * part_of_value));
   }
 
   /// By as much as a change of the disc is at the factor 2, without sign, 1/s.

@@ -142,7 +142,7 @@ constexpr Index n_steps_max = Index{1} << 18;
 /// Of the matrices of all steps of a group together: 2 GiB, and hours.
 constexpr double entries_max = double(1 << 27);
 /// Halvings that do not lessen the change before there are no more.
-constexpr int stuck_max = 2;
+constexpr int stuck_refinements_max = 2;
 /// Error over the largest of these changes.
 constexpr double chance = 4.0;
 /// Of the invariant flag over one period, per angle, and how often it is passed until then.
@@ -325,7 +325,7 @@ GroupExponents integrated(const NearGroup& group, double step)
   int stuck = 0;
   const double enough = std::max(growth_error, part_of_error * group.error);
   const double most = std::min(double(n_steps_max), entries_max / double(g * g));
-  while (change > enough && double(M) < most && stuck < stuck_max) {
+  while (change > enough && double(M) < most && stuck < stuck_refinements_max) {
     M *= 2;
     const Flag finer = Orbit<G>(F.c, g, M).motions();
     const double last = change;

@@ -22,7 +22,7 @@ using Eigen::Index;
 namespace {
 
 /// Values that are looked at, at least.
-constexpr int n_scanned = 32;
+constexpr int exponents_scanned = 32;
 
 ExponentsAt exponents_over(const FlexibleDisc& brake, const StabilityCase& search)
 {
@@ -41,9 +41,9 @@ ExponentsAt exponents_over(const FlexibleDisc& brake, const StabilityCase& searc
 }
 
 /// So many times as fine as the values that were asked for.
-int refinement(int count)
+int exponent_refinement(int count)
 {
-  return count < 2 ? 1 : std::max(1, (n_scanned + count - 3) / (count - 1));
+  return count < 2 ? 1 : std::max(1, (exponents_scanned + count - 3) / (count - 1));
 }
 
 bool is_within(const std::vector<ExponentSample>& samples, Index j,
@@ -86,7 +86,7 @@ TurningMotions::TurningMotions(const FlexibleDisc& brake, const StabilityCase& s
     ++n_exponents_;
     return exponents(value);
   };
-  const int finer = refinement(search.count);
+  const int finer = exponent_refinement(search.count);
   samples_ = followed_exponents(
       exponents_,
       Eigen::VectorXd::LinSpaced(finer * (search.count - 1) + 1, search.from, search.to));
@@ -119,7 +119,7 @@ StabilityTable TurningMotions::table(const std::optional<FrequencyBand>& band)
     const Index j = which[static_cast<std::size_t>(k)];
     std::optional<StabilityBranch>& branch = branches_[static_cast<std::size_t>(j)];
     if (branch) return;
-    StabilityBranch found = branch_of(samples_, j, refinement(search_.count));
+    StabilityBranch found = branch_of(samples_, j, exponent_refinement(search_.count));
     found.unstable = unstable_intervals(exponents_, samples_, j);
     branch = std::move(found);
   });
@@ -179,7 +179,7 @@ constexpr double replica_cost = 0.05;
 /// Of the distance of two samples, to which a limit between them is found.
 constexpr double limit_error = 1e-4;
 /// Halvings of the distance of two samples in the search for an extremum.
-constexpr int halvings_of_extremum = 6;
+constexpr int halvings_of_exponent = 6;
 /// Of the distance of two values, for the first slopes.
 constexpr double first_step = 1e-3;
 
@@ -240,8 +240,8 @@ ExponentSample sample_between(const ExponentsAt& exponents, const ExponentSample
 }
 
 /// Where motion j begins to grow, or ends to.
-StabilityPoint limit_between(const ExponentsAt& exponents, const ExponentSample& a,
-                             const ExponentSample& b, Index j)
+StabilityPoint exponent_limit_between(const ExponentsAt& exponents, const ExponentSample& a,
+                                      const ExponentSample& b, Index j)
 {
   const ExponentSample& stable = a.is_unstable(j) ? b : a;
   const ExponentSample& unstable = a.is_unstable(j) ? a : b;
@@ -296,12 +296,12 @@ std::vector<UnstableInterval> unstable_intervals(const ExponentsAt& exponents,
   std::vector<ExponentSample> all = samples;
   for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
     const Neighbours<ExponentSample> t{samples[i - 1], samples[i], samples[i + 1]};
-    if (auto other = beyond_extremum(t, j, halvings_of_extremum, half_way))
+    if (auto other = beyond_extremum(t, j, halvings_of_exponent, half_way))
       all.push_back(std::move(*other));
   }
   std::ranges::stable_sort(all, {}, &ExponentSample::value);
   return intervals_among(all, j, [&](const ExponentSample& a, const ExponentSample& b) {
-    return limit_between(exponents, a, b, j);
+    return exponent_limit_between(exponents, a, b, j);
   });
 }
 

@@ -29,7 +29,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double step = 1e-5;
+constexpr double relative_step = 1e-5;
 
 /// A number of the brake, and the state matrix with another value of it.
 struct Variable {
@@ -41,7 +41,7 @@ struct Variable {
 };
 
 /// In coordinates in which it can be differentiated.
-MatrixXd matrix_of(const Brake& brake, double speed)
+MatrixXd matrix_at(const Brake& brake, double speed)
 {
   if (const FlexibleDisc* body = brake.body())
     return smooth_state_matrix(body->inertial(), body->options(), speed);
@@ -58,7 +58,7 @@ std::vector<Variable> variables_of(const Brake& brake)
          .value = value,
          .step = 0.0,
          .A = [&brake, parameter = parameter](
-                  double x, double speed) { return matrix_of(*brake.with(parameter, x), speed); },
+                  double x, double speed) { return matrix_at(*brake.with(parameter, x), speed); },
          .dA = {}});
   }
   for (BrakeNumber& number : brake.further_numbers()) {
@@ -67,7 +67,7 @@ std::vector<Variable> variables_of(const Brake& brake)
                          .value = number.value,
                          .step = number.step,
                          .A = [with = std::move(number.with)](
-                                  double x, double speed) { return matrix_of(*with(x), speed); },
+                                  double x, double speed) { return matrix_at(*with(x), speed); },
                          .dA = std::move(number.derivative)});
   }
   return variables;
@@ -80,16 +80,16 @@ MatrixXd derivative_at_zero(const Variable& p, double speed)
   const MatrixXd A = p.A(0.0, speed);
   double h = 1e-6;
   constexpr double largest = 1e12;
-  while (h < largest && (p.A(h, speed) - A).norm() < step * A.norm()) h *= 10.0;
+  while (h < largest && (p.A(h, speed) - A).norm() < relative_step * A.norm()) h *= 10.0;
   return (4.0 * p.A(h, speed) - 3.0 * A - p.A(2.0 * h, speed)) / (2.0 * h);
 }
 
 /// dA/dp
-MatrixXd derivative(const Variable& p, double speed)
+MatrixXd matrix_derivative(const Variable& p, double speed)
 {
   if (p.dA) return p.dA(speed);
   if (p.value == 0.0 && p.step == 0.0) return derivative_at_zero(p, speed);
-  const double h = p.step > 0.0 ? p.step : step * std::abs(p.value);
+  const double h = p.step > 0.0 ? p.step : relative_step * std::abs(p.value);
   return (p.A(p.value + h, speed) - p.A(p.value - h, speed)) / (2.0 * h);
 }
 
@@ -125,10 +125,10 @@ std::optional<CriticalOscillation> critical_oscillation(const Brake& brake, cons
   const StateMatrixAt A = state_matrix_at(brake);
   const auto critical = critical_speed(stability_until_critical(A, range));
   if (!critical) return std::nullopt;
-  const double speed = critical->speed, h = step * speed;
-  const EigenvalueChange change(matrix_of(brake, speed),
+  const double speed = critical->speed, h = relative_step * speed;
+  const EigenvalueChange change(matrix_at(brake, speed),
                                 Complex(0.0, 2.0 * pi * critical->frequency_Hz));
-  const MatrixXd dA = (matrix_of(brake, speed + h) - matrix_of(brake, speed - h)) / (2.0 * h);
+  const MatrixXd dA = (matrix_at(brake, speed + h) - matrix_at(brake, speed - h)) / (2.0 * h);
   const double by_speed = change.of(dA).real();
   return CriticalOscillation{*critical, change, by_speed};
 }
@@ -172,18 +172,18 @@ Gradients gradients(const Brake& brake, const StudyOptions& options)
   std::vector<EigenvalueChange> motions;
   if (options.gradients) {
     result.speed = options.gradients->speed;
-    motions = motions_at(matrix_of(brake, *result.speed));
+    motions = motions_at(matrix_at(brake, *result.speed));
   }
   for (const EigenvalueChange& motion : motions)
     result.motions.push_back({motion.lambda().real(), motion.lambda().imag() / (2.0 * pi)});
   for (const Variable& p : variables_of(brake)) {
     GradientRow row{.key = p.key, .unit = p.unit, .value = p.value};
     if (critical) {
-      const double by_value = critical->change.of(derivative(p, critical->at.speed)).real();
+      const double by_value = critical->change.of(matrix_derivative(p, critical->at.speed)).real();
       row.critical_speed = -by_value / critical->by_speed;
     }
     row.growth.resize(std::ssize(motions));
-    const MatrixXd dA = result.speed ? derivative(p, *result.speed) : MatrixXd();
+    const MatrixXd dA = result.speed ? matrix_derivative(p, *result.speed) : MatrixXd();
     for (Index i = 0; i < row.growth.size(); ++i)
       row.growth[i] = motions[static_cast<std::size_t>(i)].of(dA).real();
     result.rows.push_back(std::move(row));

@@ -347,7 +347,7 @@ std::optional<LeastStable> least_stable_in_discs(const PoleSum& sum, const Eigen
 namespace {
 
 /// Relative to the norm of A_0: what rounding makes of the entries of state matrices, times 100.
-constexpr double rounding = 1e-14;
+constexpr double entry_rounding = 1e-14;
 
 /// Of the eigenvectors of A_0: it multiplies the rounding errors of all eigenvalues.
 constexpr double largest_condition = 1e4;
@@ -393,7 +393,7 @@ std::optional<LowRankChange> LowRankChange::about(const Eigen::MatrixXd& A_0,
   const Index n = A_0.rows(), m = n / 2;
   LowRankChange change;
   change.A_0_ = A_0;
-  change.rounding_ = rounding * A_0.norm();
+  change.rounding_ = entry_rounding * A_0.norm();
   change.U_ = common_columns(changes_of(A_0, samples), change.rounding_);
   if (change.U_.cols() == 0 || change.U_.cols() > largest_rank(n)) return std::nullopt;
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(A_0);

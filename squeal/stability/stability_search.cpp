@@ -172,7 +172,7 @@ StabilityPoint point_of(const StabilitySample& sample)
 }
 
 /// A value without and one with growth.
-struct Bracket {
+struct ValueBracket {
   double stable, unstable;
 
   double width() const { return std::abs(unstable - stable); }
@@ -180,7 +180,7 @@ struct Bracket {
 
 /// Bisected until it is so wide, or holds no number between its ends.
 template <class IsUnstable>
-Bracket narrowed(Bracket b, double width, const IsUnstable& is_unstable_at)
+ValueBracket narrowed(ValueBracket b, double width, const IsUnstable& is_unstable_at)
 {
   while (b.width() > width) {
     const double middle = 0.5 * (b.stable + b.unstable);
@@ -191,7 +191,7 @@ Bracket narrowed(Bracket b, double width, const IsUnstable& is_unstable_at)
 }
 
 /// Newton's method from the unstable end, if it ends within the bracket where nothing grows.
-std::optional<StabilityPoint> polished(const StateMatrixOf& A, const Bracket& b)
+std::optional<StabilityPoint> polished(const StateMatrixOf& A, const ValueBracket& b)
 {
   const EigenPair growing = least_stable_pair(A(b.unstable));
   const auto point = hopf_point(A, b.unstable, growing.lambda.imag(), growing.u);
@@ -206,7 +206,8 @@ std::optional<StabilityPoint> polished(const StateMatrixOf& A, const Bracket& b)
 StabilityPoint limit_between(const StateMatrixOf& A, const StabilitySample& a,
                              const StabilitySample& b, double distance)
 {
-  const Bracket wide = a.unstable ? Bracket{b.value, a.value} : Bracket{a.value, b.value};
+  const ValueBracket wide =
+      a.unstable ? ValueBracket{b.value, a.value} : ValueBracket{a.value, b.value};
   const StabilitySample& stable = a.unstable ? b : a;
   // Where all motions decay, growth is found by its sign; beside a neutral one, by its doubt.
   const bool decays = stable.growth() < -rounding_of(stable.lambda);
@@ -214,9 +215,9 @@ StabilityPoint limit_between(const StateMatrixOf& A, const StabilitySample& a,
     const Eigen::MatrixXd A_here = A(value);
     return decays ? least_stable_eigenvalue(A_here).real() > 0.0 : is_unstable(A_here);
   };
-  const Bracket near = narrowed(wide, bracket * distance, unstable_at);
+  const ValueBracket near = narrowed(wide, bracket * distance, unstable_at);
   // The doubt may hide the first growth of a slow motion: then Newton's value is below the bracket.
-  if (const auto point = polished(A, decays ? near : Bracket{wide.stable, near.unstable}))
+  if (const auto point = polished(A, decays ? near : ValueBracket{wide.stable, near.unstable}))
     return *point;
   const double value = narrowed(near, 0.0, unstable_at).unstable;
   return {value, 0.0, frequency_of(least_stable_eigenvalue(A(value)))};
@@ -270,7 +271,7 @@ namespace {
 
 /// Growth that rounding can make of a neutral motion whose eigenvalue has the condition 1, relative
 /// to the largest eigenvalue.
-constexpr double rounding = 1e-12;
+constexpr double growth_rounding = 1e-12;
 /// Growth, relative to the largest eigenvalue, beyond which no condition is asked for: rounding
 /// makes so much only of eigenvalues that coincide to twelve digits.
 constexpr double beyond_doubt = 1e-6;
@@ -286,14 +287,14 @@ bool grows(const Eigen::MatrixXd& A, const Eigen::VectorXcd& lambda)
 {
   const double growth = lambda.real().maxCoeff(), zero = rounding_of(lambda);
   if (growth <= zero) return false;
-  if (growth > zero * (beyond_doubt / rounding)) return true;
+  if (growth > zero * (beyond_doubt / growth_rounding)) return true;
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
   if (solver.info() != Eigen::Success)
     throw Error("eigenvalues of the sliding disc: the QR iteration did not converge");
   const Eigen::VectorXd kappa = conditions(solver.eigenvectors());
   for (Eigen::Index i = 0; i < kappa.size(); ++i) {
     // Two eigenvectors that are the same to the last digit have no finite condition.
-    const double doubt = std::isfinite(kappa[i]) ? kappa[i] : beyond_doubt / rounding;
+    const double doubt = std::isfinite(kappa[i]) ? kappa[i] : beyond_doubt / growth_rounding;
     if (solver.eigenvalues()[i].real() > zero * doubt) return true;
   }
   return false;
@@ -330,7 +331,7 @@ bool is_unstable(const Eigen::MatrixXd& A)
 
 double rounding_of(const Eigen::VectorXcd& lambda)
 {
-  return rounding * lambda.cwiseAbs().maxCoeff();
+  return growth_rounding * lambda.cwiseAbs().maxCoeff();
 }
 
 std::vector<StabilitySample> scan(const StateMatrixOf& A, const SearchRange& range)
@@ -354,16 +355,16 @@ StabilitySample sample_between(const StateMatrixOf& A, const StabilitySample& lo
 
 namespace {
 
-constexpr int newton_steps_max = 30;
-constexpr int n_scanned = 128;
+constexpr int limit_newton_steps_max = 30;
+constexpr int values_scanned = 128;
 /// Change of omega, and a hundredth of that of the value, relative, at which Newton's method has
 /// converged.
-constexpr double converged = 1e-13;
+constexpr double limit_converged = 1e-13;
 /// The same where it no longer falls: rounding, which in a large system is what remains.
 constexpr double converged_at_rounding = 1e-10;
 /// Step of the central difference of A, relative to the value: A is smooth in it, and rounding and
 /// truncation both stay below 1e-9, which slows the last steps of Newton's method only.
-constexpr double difference = 1e-5;
+constexpr double difference_by_value = 1e-5;
 
 /// g and its derivatives at (value, omega).
 struct Bordered {
@@ -387,7 +388,7 @@ Bordered bordered(const StateMatrixOf& A, double value, double omega,
   const Eigen::VectorXcd unit = scale * Eigen::VectorXcd::Unit(n + 1, n);
   const Eigen::VectorXcd x = lu.solve(unit), y = adjoint.solve(unit);
   const Eigen::VectorXcd u = x.head(n), w = y.head(n);
-  const double step = difference * std::abs(value);
+  const double step = difference_by_value * std::abs(value);
   const Eigen::MatrixXd A_value = (A(value + step) - A(value - step)) / (2.0 * step);
   return {x[n], w.dot(i * u) / scale, -w.dot(A_value * u) / scale, u};
 }
@@ -399,7 +400,7 @@ std::optional<HopfPoint> hopf_point(const StateMatrixOf& A, double value, double
 {
   Eigen::VectorXcd border = u.normalized();
   double last = std::numeric_limits<double>::infinity();
-  for (int k = 1; k <= newton_steps_max; ++k) {
+  for (int k = 1; k <= limit_newton_steps_max; ++k) {
     const Bordered at = bordered(A, value, omega, border);
     Eigen::Matrix2d J;
     J << at.g_omega.real(), at.g_value.real(), at.g_omega.imag(), at.g_value.imag();
@@ -410,7 +411,7 @@ std::optional<HopfPoint> hopf_point(const StateMatrixOf& A, double value, double
     border = at.u.normalized();
     if (!std::isfinite(omega) || !std::isfinite(value)) return std::nullopt;
     const double size = std::max(std::abs(change[0] / omega), 1e-2 * std::abs(change[1] / value));
-    if (size <= converged || (size <= converged_at_rounding && size >= 0.5 * last))
+    if (size <= limit_converged || (size <= converged_at_rounding && size >= 0.5 * last))
       return HopfPoint{value, omega, border, k};
     last = size;
   }
@@ -422,13 +423,13 @@ CriticalValue critical_value(const Brake& brake, const CriticalCase& search)
   const StateMatrixOf A = [&](double value) {
     return brake.with(search.parameter, value)->state_matrix(search.speed);
   };
-  CriticalValue result{
-      .parameter = key_of(search.parameter),
-      .speed = search.speed,
-      .value = {},
-      .frequency_Hz = 0.0,
-      .n_newton_steps = 0,
-      .profile = stability_over(A, {.from = search.from, .to = search.to, .count = n_scanned})};
+  CriticalValue result{.parameter = key_of(search.parameter),
+                       .speed = search.speed,
+                       .value = {},
+                       .frequency_Hz = 0.0,
+                       .n_newton_steps = 0,
+                       .profile = stability_over(
+                           A, {.from = search.from, .to = search.to, .count = values_scanned})};
   std::optional<StabilityPoint> limit = first_loss(*result.profile);
   if (!limit) limit = first_regain(*result.profile);
   if (!limit) return result;

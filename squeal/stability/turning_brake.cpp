@@ -24,7 +24,7 @@ constexpr double gap_limit = 0.1;
 /// one phase, must be above this.
 constexpr double phase_limit = 0.3;
 /// Part of the largest coefficient of the shapes below which a harmonic is rounding.
-constexpr double rounding = 1e-13;
+constexpr double harmonic_rounding = 1e-13;
 
 /// Those that are a cosine where W is one, with weights.
 std::vector<RingFunction> across_functions(const DiscRing& ring)
@@ -121,8 +121,8 @@ int highest_harmonic(const Disc& disc, const TurningCoordinates& coordinates)
   int highest = 0;
   for (const DiscRing& ring : disc.rings)
     for (const auto& [f, scale] : functions_of(ring)) {
-      const double limit =
-          rounding * std::max(f->cosine.cwiseAbs().maxCoeff(), f->sine.cwiseAbs().maxCoeff());
+      const double limit = harmonic_rounding *
+                           std::max(f->cosine.cwiseAbs().maxCoeff(), f->sine.cwiseAbs().maxCoeff());
       for (Eigen::Index k = 0; k < f->cosine.rows(); ++k) {
         if (std::max(f->cosine.row(k).cwiseAbs().maxCoeff(), f->sine.row(k).cwiseAbs().maxCoeff()) >
             limit)

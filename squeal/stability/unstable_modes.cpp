@@ -48,8 +48,8 @@ double frequency_distance(const ModeSample& sample, Index j, Index k)
 }
 
 /// Where the frequencies of two stable motions are one, by linear interpolation.
-std::vector<ModeSample> at_crossings(const StateMatrixOf& A, const ModeSample& low,
-                                     const ModeSample& high, const std::vector<Index>& which)
+std::vector<ModeSample> modes_at_crossings(const StateMatrixOf& A, const ModeSample& low,
+                                           const ModeSample& high, const std::vector<Index>& which)
 {
   std::vector<ModeSample> found;
   const auto is_stable = [&](Index j) { return !low.is_unstable(j) && !high.is_unstable(j); };
@@ -66,7 +66,7 @@ std::vector<ModeSample> at_crossings(const StateMatrixOf& A, const ModeSample& l
 }
 
 /// Two samples, without and with growth of a motion.
-struct Bracket {
+struct ModeBracket {
   ModeSample stable, unstable;
 
   double width() const { return std::abs(unstable.value - stable.value); }
@@ -77,7 +77,7 @@ struct Bracket {
 };
 
 /// Halved so many times, or until it holds no number between its ends.
-Bracket halved(const StateMatrixOf& A, Bracket b, Index j, int times)
+ModeBracket halved(const StateMatrixOf& A, ModeBracket b, Index j, int times)
 {
   for (int k = 0; k < times; ++k) {
     ModeSample middle = mode_sample_between(A, b.stable, b.unstable, 0.5);
@@ -87,13 +87,13 @@ Bracket halved(const StateMatrixOf& A, Bracket b, Index j, int times)
   return b;
 }
 
-StabilityPoint limit_within(const StateMatrixOf& A, const Bracket& wide, Index j)
+StabilityPoint limit_within(const StateMatrixOf& A, const ModeBracket& wide, Index j)
 {
-  const Bracket near = halved(A, wide, j, halvings_before_newton);
+  const ModeBracket near = halved(A, wide, j, halvings_before_newton);
   const ModeSample& at = near.unstable;
   const auto newton = hopf_point(A, at.value, at.lambda[j].imag(), at.X.col(j));
   // The doubt may hide the first growth of a slow motion: then Newton's value is below the bracket.
-  if (newton && Bracket{wide.stable, near.unstable}.holds(newton->value)) {
+  if (newton && ModeBracket{wide.stable, near.unstable}.holds(newton->value)) {
     const double t = near.width() > 0.0 ? (newton->value - near.stable.value) /
                                               (near.unstable.value - near.stable.value)
                                         : 0.0;
@@ -126,7 +126,8 @@ std::vector<ModeSample> with_hidden_changes(const StateMatrixOf& A, std::vector<
   };
   std::vector<ModeSample> more;
   for (std::size_t i = 1; i < samples.size(); ++i) {
-    std::ranges::move(at_crossings(A, samples[i - 1], samples[i], which), std::back_inserter(more));
+    std::ranges::move(modes_at_crossings(A, samples[i - 1], samples[i], which),
+                      std::back_inserter(more));
     if (i + 1 == samples.size()) break;
     for (const Index j : which) {
       const Neighbours<ModeSample> t{samples[i - 1], samples[i], samples[i + 1]};
@@ -146,7 +147,7 @@ std::vector<UnstableInterval> unstable_intervals(const StateMatrixOf& A,
                                                  const std::vector<ModeSample>& samples, Index j)
 {
   return intervals_among(samples, j, [&](const ModeSample& a, const ModeSample& b) {
-    return limit_within(A, a.is_unstable(j) ? Bracket{b, a} : Bracket{a, b}, j);
+    return limit_within(A, a.is_unstable(j) ? ModeBracket{b, a} : ModeBracket{a, b}, j);
   });
 }
 
@@ -169,8 +170,8 @@ int refinement(int count)
 }
 
 /// Motions that have a frequency of the band at one of the samples.
-std::vector<Index> within_band(const std::vector<ModeSample>& samples,
-                               const std::optional<FrequencyBand>& band)
+std::vector<Index> modes_within_band(const std::vector<ModeSample>& samples,
+                                     const std::optional<FrequencyBand>& band)
 {
   std::vector<Index> which;
   for (Index j = 0; j < samples.front().size(); ++j) {
@@ -295,7 +296,7 @@ StabilityTable unstable_modes(const Brake& brake, const StabilityCase& search,
   const int finer = refinement(search.count);
   std::vector<ModeSample> samples = followed_modes(
       A, {.from = search.from, .to = search.to, .count = finer * (search.count - 1) + 1});
-  const std::vector<Index> which = within_band(samples, search.band);
+  const std::vector<Index> which = modes_within_band(samples, search.band);
   for (const Index j : which) {
     StabilityBranch branch{};
     branch.lambda.resize(search.count);
@@ -472,7 +473,7 @@ constexpr int n_energies = 8;
 /// Change of the works, relative, from which on they are those of the linear motion.
 constexpr double linear = 1e-6;
 
-double size_of(const PeriodWork& work)
+double size_of_work(const PeriodWork& work)
 {
   return std::abs(work.friction) + std::abs(work.normal) + std::abs(work.damping);
 }
@@ -506,10 +507,10 @@ PeriodWork period_work(const FlexibleDisc& brake, double speed, std::complex<dou
   for (int i = 1; i < n_energies; ++i) {
     v *= std::sqrt(smaller);
     const PeriodWork now = work_at(motion, v, period);
-    const double change = size_of(
+    const double change = size_of_work(
         {now.friction - work.friction, now.normal - work.normal, now.damping - work.damping});
     work = now;
-    if (change < linear * size_of(now)) break;
+    if (change < linear * size_of_work(now)) break;
   }
   return work;
 }

@@ -20,7 +20,7 @@ using std::numbers::pi;
 /// as wide as those of the Hann window are.
 constexpr int rotations_min = 4, rotations_max = 8;
 /// Parts of a rotation.
-constexpr int n_parts = 24;
+constexpr int parts_of_rotation = 24;
 /// Of the square of the velocity, that the history may lack.
 constexpr double lacking_max = 0.02;
 /// Least amplitude of a line beside that of the strongest.
@@ -102,11 +102,12 @@ Samples samples_from(const Transient& run, double from)
 
 Eigen::VectorXd rms_over_angle(const Samples& x, double speed)
 {
-  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(n_parts), count = sum;
+  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(parts_of_rotation), count = sum;
   for (std::size_t i = 0; i < x.velocity.size(); ++i) {
     const double rotations = speed * (x.first + double(i) * x.step) / (2.0 * pi);
     const auto part =
-        std::min(n_parts - 1, static_cast<int>(n_parts * (rotations - std::floor(rotations))));
+        std::min(parts_of_rotation - 1,
+                 static_cast<int>(parts_of_rotation * (rotations - std::floor(rotations))));
     sum[part] += x.velocity[i] * x.velocity[i];
     count[part] += 1.0;
   }

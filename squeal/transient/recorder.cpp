@@ -14,7 +14,7 @@ namespace {
 /// Of a history: pad velocity and displacement, both normal forces, speed of sliding.
 constexpr Eigen::Index n_signals = 5;
 
-void append(History& history, double t, const Eigen::VectorXd& x)
+void append_sample(History& history, double t, const Eigen::VectorXd& x)
 {
   history.t.push_back(t);
   history.pad_velocity.push_back(x[0]);
@@ -77,7 +77,7 @@ void Recorder::add(const Sample& sample)
   x << up.z_dot, up.z - rest_, up.N, lo.N, up.slip_speed;
   if (!begin_) begin_ = sample.t;
   if (const auto kept = history_.add(x)) keep(*kept);
-  if (in_tail(sample.i)) append(transient_.tail, sample.t, x);
+  if (in_tail(sample.i)) append_sample(transient_.tail, sample.t, x);
 }
 
 void Recorder::finish()
@@ -90,7 +90,8 @@ void Recorder::finish()
 void Recorder::keep(const Eigen::VectorXd& sample)
 {
   const double distance = plan_.step * double(plan_.history.every());
-  append(transient_.history, *begin_ + double(transient_.history.t.size()) * distance, sample);
+  append_sample(transient_.history, *begin_ + double(transient_.history.t.size()) * distance,
+                sample);
 }
 
 void Recorder::add_extremes(double t, const PadState<double>& pad)

@@ -84,7 +84,7 @@ Spectrum spectrum(std::span<const double> x, double step)
 namespace {
 
 constexpr std::size_t window_samples_min = 256, shortest_window = 64;
-constexpr Index windows_max = 200, frequencies_max = 1000, n_lines = 5;
+constexpr Index spectra_max = 200, frequencies_max = 1000, n_lines = 5;
 
 /// Samples of a window: a fiftieth of the history, so that 200 windows overlap by three quarters.
 std::size_t window_of(std::size_t n)
@@ -144,7 +144,7 @@ Spectrogram spectrogram(const Transient& run)
                             v.size(), window_samples_min));
   }
   const std::size_t length = window_of(v.size());
-  const auto n_t = std::min<Index>(windows_max, Index((v.size() - length) / (length / 4)) + 1);
+  const auto n_t = std::min<Index>(spectra_max, Index((v.size() - length) / (length / 4)) + 1);
   const double step = 1.0 / run.band.rate_Hz;
   Spectrogram result{.t = Eigen::VectorXd(n_t),
                      .speed = Eigen::VectorXd(n_t),

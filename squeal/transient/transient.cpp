@@ -314,7 +314,7 @@ std::string divergence_of(const Transient& run)
 
 namespace {
 
-constexpr double steps_max = 1e10;
+constexpr double steps_of_run_max = 1e10;
 /// What no brake vibrates with, and the steps that still take little time then.
 constexpr double absurd_Hz = 1e7, bearable_steps = 1e7;
 /// Periods of the lowest mode for one point of the envelope, and in the tail.
@@ -341,9 +341,9 @@ void check_steps(const TransientCase& run, double n_steps, double omega_highest)
 {
   const double highest_Hz = omega_highest / (2.0 * pi);
   const bool is_absurd = highest_Hz > absurd_Hz;
-  if (n_steps < (is_absurd ? bearable_steps : steps_max)) return;
+  if (n_steps < (is_absurd ? bearable_steps : steps_of_run_max)) return;
   constexpr double steps_per_hour = 3.6e9;  // of two modes on one core
-  const auto [steps, allowed] = told_apart(n_steps, is_absurd ? bearable_steps : steps_max);
+  const auto [steps, allowed] = told_apart(n_steps, is_absurd ? bearable_steps : steps_of_run_max);
   throw Error(
       fmt::format("transient: {} s take {} steps (allowed: {}), hours: {:.1g} or more, "
                   "since the highest mode has {:.2g} Hz; {}",

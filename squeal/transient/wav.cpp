@@ -16,7 +16,7 @@ namespace chladni::squeal {
 namespace {
 
 /// Appends the `n` low bytes of x, least significant first.
-void append(std::string& bytes, std::uint64_t x, int n)
+void append_number(std::string& bytes, std::uint64_t x, int n)
 {
   for (int i = 0; i < n; ++i) bytes.push_back(static_cast<char>((x >> (8 * i)) & 0xFFU));
 }
@@ -24,7 +24,7 @@ void append(std::string& bytes, std::uint64_t x, int n)
 std::string chunk_head(const std::string& name, std::uint64_t size)
 {
   std::string bytes = name;
-  append(bytes, size, 4);
+  append_number(bytes, size, 4);
   return bytes;
 }
 
@@ -39,16 +39,16 @@ std::string format_chunk(int rate_Hz)
 {
   const auto rate = static_cast<std::uint32_t>(rate_Hz);
   std::string bytes;
-  append(bytes, 1, 2);         // PCM
-  append(bytes, 1, 2);         // mono
-  append(bytes, rate, 4);      // samples per second
-  append(bytes, 2 * rate, 4);  // bytes per second
-  append(bytes, 2, 2);         // bytes per sample
-  append(bytes, 16, 2);        // bits per sample
+  append_number(bytes, 1, 2);         // PCM
+  append_number(bytes, 1, 2);         // mono
+  append_number(bytes, rate, 4);      // samples per second
+  append_number(bytes, 2 * rate, 4);  // bytes per second
+  append_number(bytes, 2, 2);         // bytes per sample
+  append_number(bytes, 16, 2);        // bits per sample
   return chunk("fmt ", bytes);
 }
 
-double scale_of(double full_scale)
+double scale_of_samples(double full_scale)
 {
   return full_scale > 0.0 ? full_scale : 1.0;
 }
@@ -64,7 +64,7 @@ std::string wav_header(const WavFormat& format)
                     double(format.n_samples) / format.rate_Hz));
   }
   std::string comment =
-      fmt::format("full scale = {:.9g} {}", scale_of(format.full_scale), format.unit);
+      fmt::format("full scale = {:.9g} {}", scale_of_samples(format.full_scale), format.unit);
   comment.push_back('\0');
   const auto n = static_cast<std::uint64_t>(format.n_samples);
   const std::string parts =
@@ -82,14 +82,14 @@ std::string levels(std::span<const float> x, double full_scale)
   bytes.reserve(2 * x.size());
   for (const float value : x) {
     const auto level =
-        static_cast<std::int16_t>(std::lround(32767.0 * double(value) / scale_of(full_scale)));
-    append(bytes, static_cast<std::uint16_t>(level), 2);
+        static_cast<std::int16_t>(std::lround(32767.0 * double(value) / scale_of_samples(full_scale)));
+    append_number(bytes, static_cast<std::uint16_t>(level), 2);
   }
   return bytes;
 }
 
 /// Samples that are written, and read again, at a time.
-constexpr std::size_t block = 1U << 16U;
+constexpr std::size_t samples_at_a_time = 1U << 16U;
 /// Where samples wait for their scale; no header is longer.
 constexpr std::size_t waiting_from = 256;
 
@@ -102,10 +102,10 @@ double write_wav(const std::filesystem::path& path, std::span<const float> x, in
   for (const float value : x) largest = std::max(largest, std::abs(double(value)));
   files::Replacement file(path.string());
   file.write(wav_header({std::ssize(x), rate_Hz, largest, unit}));
-  for (; !x.empty(); x = x.subspan(std::min(block, x.size())))
-    file.write(levels(x.first(std::min(block, x.size())), largest));
+  for (; !x.empty(); x = x.subspan(std::min(samples_at_a_time, x.size())))
+    file.write(levels(x.first(std::min(samples_at_a_time, x.size())), largest));
   file.commit();
-  return scale_of(largest);
+  return scale_of_samples(largest);
 }
 
 WavRecording::WavRecording(std::filesystem::path file, int rate_Hz)
@@ -117,7 +117,7 @@ void WavRecording::add(const std::vector<float>& x)
   for (const float value : x) largest_ = std::max(largest_, std::abs(double(value)));
   waiting_.insert(waiting_.end(), x.begin(), x.end());
   n_ += std::ssize(x);
-  if (waiting_.size() >= block) flush();
+  if (waiting_.size() >= samples_at_a_time) flush();
 }
 
 void WavRecording::flush()
@@ -143,7 +143,7 @@ void WavRecording::scale()
   std::size_t begin = 0;
   std::vector<float> x;
   for (std::size_t read = 0; read < std::size_t(n_); read += x.size()) {
-    x.resize(std::min(block, std::size_t(n_) - read));
+    x.resize(std::min(samples_at_a_time, std::size_t(n_) - read));
     file.seekg(std::streamoff(waiting_from + read * sizeof(float)));
     file.read(reinterpret_cast<char*>(x.data()), std::streamsize(x.size() * sizeof(float)));
     bytes += levels(x, largest_);
@@ -163,7 +163,7 @@ void WavRecording::finish()
   scale();
   file_->commit();
   file_.reset();
-  full_scale_ = scale_of(largest_);
+  full_scale_ = scale_of_samples(largest_);
 }
 
 }  // namespace chladni::squeal

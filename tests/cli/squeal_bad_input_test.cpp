@@ -12,7 +12,7 @@
 namespace chladni::cli::testing {
 namespace {
 
-const std::string squeal_program = "'" SQUEAL_PROGRAM "'";
+const std::string program_under_test = "'" SQUEAL_PROGRAM "'";
 
 /// The example with these analyses alone.
 std::string scene_with(const std::string& analyses)
@@ -34,7 +34,7 @@ Attempt attempt(const std::string& scene, const mbs_export::ModalBody& body)
   const Folder folder;
   write_text(folder.path() / "scene.toml", scene);
   mbs_export::write_body(folder.path() / "disc.body.h5", body);
-  const Ending ending = run(folder, squeal_program + " run scene.toml --json summary.json");
+  const Ending ending = run(folder, program_under_test + " run scene.toml --json summary.json");
   return {ending, folder.n_files() - 2};
 }
 
@@ -102,11 +102,11 @@ TEST(SquealBadInput, OfAFileIsFoundBeforeItIsUsed)
   ASSERT_NE(at, std::string::npos);
   bytes.replace(at, sizeof nan, reinterpret_cast<const char*>(&nan), sizeof nan);
   std::ofstream(folder.path() / "disc.body.h5", std::ios::binary) << bytes;
-  const Ending unsealed = run(folder, squeal_program + " run scene.toml");
+  const Ending unsealed = run(folder, program_under_test + " run scene.toml");
   EXPECT_EQ(unsealed.exit_code, 1);
   EXPECT_NE(unsealed.err.find("squeal seal"), std::string::npos) << unsealed.err;
-  EXPECT_EQ(run(folder, squeal_program + " seal disc.body.h5").exit_code, 0);
-  const Ending ending = run(folder, squeal_program + " run scene.toml");
+  EXPECT_EQ(run(folder, program_under_test + " seal disc.body.h5").exit_code, 0);
+  const Ending ending = run(folder, program_under_test + " run scene.toml");
   EXPECT_EQ(ending.exit_code, 1);
   EXPECT_NE(ending.err.find("nan"), std::string::npos) << ending.err;
   EXPECT_EQ(folder.n_files(), 2u);
@@ -120,7 +120,7 @@ void expect_divergence(const Folder& folder, const std::string& analyses)
   scene = replaced(scene, "initial_pad_displacement = 6.8e-8", "initial_pad_displacement = 0.05");
   write_text(folder.path() / "scene.toml", scene);
   mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
-  const Ending ending = run(folder, squeal_program + " run scene.toml");
+  const Ending ending = run(folder, program_under_test + " run scene.toml");
   EXPECT_EQ(ending.exit_code, 1);
   EXPECT_NE(ending.err.find("diverged"), std::string::npos) << ending.err;
 }
@@ -148,7 +148,7 @@ TEST(SquealProgram, LeavesNothingBehindWhenTheSceneIsWrong)
   write_text(folder.path() / "scene.toml",
              replaced(example_scene(), "friction = 0.6", "friction = -0.6"));
   mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
-  const Ending ending = run(folder, squeal_program + " run scene.toml --json summary.json");
+  const Ending ending = run(folder, program_under_test + " run scene.toml --json summary.json");
   EXPECT_EQ(ending.exit_code, 1);
   EXPECT_EQ(ending.err, "scene.toml:54: squeal.friction = -0.6: must be >= 0\n");
   EXPECT_EQ(folder.n_files(), 2u);
@@ -161,7 +161,7 @@ TEST(SquealReport, RefusesResultsOfAnotherBodyByName)
   mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
   std::filesystem::copy_file(CHLADNI_SOURCE_DIR "/tests/data/version_1.squeal.h5",
                              folder.path() / "disc.squeal.h5");
-  const Ending ending = run(folder, squeal_program + " report scene.toml");
+  const Ending ending = run(folder, program_under_test + " report scene.toml");
   EXPECT_EQ(ending.exit_code, 1);
   EXPECT_NE(
       ending.err.find("disc.squeal.h5: the results of squeal name mode 3, and the body has 2"),
@@ -175,7 +175,7 @@ TEST(SquealProgram, RefusesAFileThatIsNoBody)
   const Folder folder;
   write_text(folder.path() / "scene.toml", example_scene());
   write_text(folder.path() / "disc.body.h5", "not HDF5");
-  const Ending ending = run(folder, squeal_program + " run scene.toml");
+  const Ending ending = run(folder, program_under_test + " run scene.toml");
   EXPECT_EQ(ending.exit_code, 1);
   EXPECT_NE(ending.err.find("disc.body.h5"), std::string::npos) << ending.err;
   EXPECT_EQ(folder.n_files(), 2u);

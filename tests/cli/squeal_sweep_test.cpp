@@ -28,7 +28,7 @@ std::string scene_of(const std::string& analyses, const std::string& more = "")
          scene.substr(scene.find('\n', from) + 1);
 }
 
-void prepare(const Folder& folder, const std::string& scene)
+void prepare_sweep(const Folder& folder, const std::string& scene)
 {
   write_text(folder.path() / "scene.toml", scene);
   mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
@@ -51,7 +51,7 @@ TEST(SquealSweep, HasForEachVariantWhatARunOfItsSceneFinds)
 {
   const Folder folder;
   const std::string scene = scene_of("\"critical-speed\", \"stability\"");
-  prepare(folder, scene);
+  prepare_sweep(folder, scene);
   const Ending ending = run(folder, program +
                                         "sweep scene.toml --vary squeal.friction=0.6,0.5 "
                                         "--vary squeal.pads.stiffness=5e6:6e6:3 --json s.json");
@@ -87,7 +87,8 @@ const std::string many =
 TEST(SquealSweep, ThatWasKilledGoesOnToTheSameFileBitByBit)
 {
   const Folder whole, killed;
-  for (const Folder* folder : {&whole, &killed}) prepare(*folder, scene_of("\"critical-speed\""));
+  for (const Folder* folder : {&whole, &killed})
+    prepare_sweep(*folder, scene_of("\"critical-speed\""));
   ASSERT_EQ(run(whole, program + many + "--threads 1").exit_code, 0);
   // It leaves a state behind as soon as it has begun; the next one, another file, has a variant.
   const std::string state = "$(stat -c %i disc.sweep.h5 2> /dev/null)";
@@ -120,7 +121,7 @@ TEST(SquealSweep, ListsVariantsThatFailAndGoesOn)
 {
   // Without friction nothing squeals, and there is no limit cycle to find.
   const Folder folder;
-  prepare(folder, scene_of("\"critical-speed\", \"limit-cycle-direct\""));
+  prepare_sweep(folder, scene_of("\"critical-speed\", \"limit-cycle-direct\""));
   write_text(folder.path() / "samples.csv",
              "squeal.friction, squeal.pads[1].preload\n"
              "0.6, 2000\r\n0.0,2000\n\n0.6,2100\n");
@@ -144,9 +145,10 @@ TEST(SquealSweep, ListsVariantsThatFailAndGoesOn)
 TEST(SquealSweep, RefusesBeforeTheRunWhatCannotBe)
 {
   const Folder folder;
-  prepare(folder, scene_of("\"stability\"",
-                           "stability = { over = \"friction\", from = 0.1, to = 0.7, count = 3, "
-                           "speed_rad_s = 18.8, band_Hz = [1000, 1600] }\n"));
+  prepare_sweep(folder,
+                scene_of("\"stability\"",
+                         "stability = { over = \"friction\", from = 0.1, to = 0.7, count = 3, "
+                         "speed_rad_s = 18.8, band_Hz = [1000, 1600] }\n"));
   write_text(folder.path() / "cells.csv", "squeal.thickness\n0.02\n0,02\n");
   write_text(folder.path() / "words.csv", "squeal.thickness\n0.02\nthick\n");
   const std::vector<std::pair<std::string, std::string>> cases = {
@@ -175,7 +177,7 @@ TEST(SquealSweep, RefusesBeforeTheRunWhatCannotBe)
 TEST(SquealSweep, TakesTheAnalysesThatYieldNumbers)
 {
   const Folder folder;
-  prepare(folder, scene_of("\"eigenvalues\", \"limit-cycle-branch\""));
+  prepare_sweep(folder, scene_of("\"eigenvalues\", \"limit-cycle-branch\""));
   const std::string sweep = program + "sweep scene.toml --vary squeal.friction=0.3 ";
   ASSERT_EQ(run(folder, sweep).exit_code, 0);
   EXPECT_EQ(table_of(folder).columns.size(), 3u);

@@ -107,7 +107,7 @@ double error_within_a_strong_layer()
   return sound::testing::mean_field_error(exterior.mesh(), field.wave, field.p.col(0), exact);
 }
 
-AirOptions elements_of(double size)
+AirOptions air_options(double size)
 {
   AirOptions options;
   options.element_size = size;
@@ -145,7 +145,7 @@ std::vector<HardCase> sound_cases()
       {"sound", "elements of two thirds of a wavelength", "would show waves that do not exist",
        "words missing in the refusal", 0.0,
        [omega] {
-         AirOptions options = elements_of(0.135);
+         AirOptions options = air_options(0.135);
          options.order = 2;
          return words_missing([&] { plan_air(disc_of_20_mm(), options, omega, true); },
                               {"element_size"});

@@ -50,7 +50,7 @@ double column_value(PetscInt i, PetscInt j)
   return is_of_0_and_3 == (j % 2 == 0) ? std::cos(0.3 * double(i) * double(j + 1)) : 0.0;
 }
 
-MatrixXd dense(PetscInt n, const std::function<double(PetscInt, PetscInt)>& value)
+MatrixXd dense_of_values(PetscInt n, const std::function<double(PetscInt, PetscInt)>& value)
 {
   MatrixXd A(n_rows, n);
   for (PetscInt j = 0; j < n; ++j)
@@ -103,9 +103,9 @@ TEST(ComponentForms, AreThoseOfDenseMatrices)
   const std::vector<MatrixXd> found =
       component_forms({.n_columns = n_columns, .write = write}, sparse);
   ASSERT_EQ(found.size(), forms.size());
-  const MatrixXd T = dense(n_columns, column_value);
+  const MatrixXd T = dense_of_values(n_columns, column_value);
   for (std::size_t k = 0; k < forms.size(); ++k) {
-    const MatrixXd wanted = T.transpose() * dense(n_rows, forms[k].value) * T;
+    const MatrixXd wanted = T.transpose() * dense_of_values(n_rows, forms[k].value) * T;
     EXPECT_LE((found[k] - wanted).norm(), 1e-13 * wanted.norm()) << k;
     if (forms[k].symmetry == symmetric) {
       EXPECT_EQ(found[k], MatrixXd(found[k].transpose())) << k;

@@ -31,7 +31,7 @@ petsc::Matrix chains(PetscInt n_rows, PetscInt n_chains)
 }
 
 /// A diagonal, and one entry between two rows.
-petsc::Matrix diagonal(PetscInt n_rows, PetscInt a, PetscInt b)
+petsc::Matrix diagonal_and_entry(PetscInt n_rows, PetscInt a, PetscInt b)
 {
   return testing::matrix(n_rows, 2, [&](PetscInt i) {
     testing::Row row{{i, 1.0}};
@@ -62,7 +62,7 @@ std::vector<PetscInt> members(PetscInt first, PetscInt step, PetscInt end)
 TEST(DecoupledRows, AreThoseOfEachChain)
 {
   const petsc::Matrix K = chains(301, 2);
-  const auto sets = decoupled_rows(K, diagonal(301, 0, 0));
+  const auto sets = decoupled_rows(K, diagonal_and_entry(301, 0, 0));
   ASSERT_EQ(sets.size(), 2u);
   EXPECT_EQ(all_of(sets[0]), members(0, 2, 301));  // the longer one
   EXPECT_EQ(all_of(sets[1]), members(1, 2, 301));
@@ -71,14 +71,14 @@ TEST(DecoupledRows, AreThoseOfEachChain)
 TEST(DecoupledRows, AreNoneWhereOneEntryOfTheMassCouplesTheChains)
 {
   const petsc::Matrix K = chains(301, 2);
-  EXPECT_TRUE(decoupled_rows(K, diagonal(301, 0, 299)).empty());
-  EXPECT_TRUE(decoupled_rows(K, diagonal(301, 7, 8)).empty());
+  EXPECT_TRUE(decoupled_rows(K, diagonal_and_entry(301, 0, 299)).empty());
+  EXPECT_TRUE(decoupled_rows(K, diagonal_and_entry(301, 7, 8)).empty());
 }
 
 TEST(DecoupledRows, AreUnitedWhereTheyAreSmall)
 {
-  EXPECT_TRUE(decoupled_rows(diagonal(300, 0, 0), diagonal(300, 0, 0)).empty());
-  EXPECT_TRUE(decoupled_rows(chains(300, 40), diagonal(300, 0, 0)).empty());
+  EXPECT_TRUE(decoupled_rows(diagonal_and_entry(300, 0, 0), diagonal_and_entry(300, 0, 0)).empty());
+  EXPECT_TRUE(decoupled_rows(chains(300, 40), diagonal_and_entry(300, 0, 0)).empty());
 }
 
 TEST(DecoupledRows, LeaveWhatIsSmallForTheLastSet)
@@ -95,7 +95,7 @@ TEST(DecoupledRows, LeaveWhatIsSmallForTheLastSet)
     join(i + 4);
     return row;
   });
-  const auto sets = decoupled_rows(K, diagonal(301, 0, 0));
+  const auto sets = decoupled_rows(K, diagonal_and_entry(301, 0, 0));
   ASSERT_EQ(sets.size(), 3u);
   EXPECT_EQ(all_of(sets[0]), members(0, 2, 301));
   EXPECT_EQ(all_of(sets[2]), members(17, 50, 301));
@@ -110,7 +110,7 @@ TEST(DecoupledRows, BelongTogetherWhereARankHasAlmostNothingOfASet)
     return row;
   });
   const bool is_alone = petsc::size(PETSC_COMM_WORLD) == 1;
-  const auto sets = decoupled_rows(K, diagonal(300, 0, 0));
+  const auto sets = decoupled_rows(K, diagonal_and_entry(300, 0, 0));
   EXPECT_TRUE(!is_alone || sets.size() == 2) << sets.size();
   // Of two ranks each has a half: by themselves they would have one wait for the other.
   for (const petsc::IndexSet& set : sets) {
@@ -208,7 +208,7 @@ TEST(PartSolver, SolvesForThePartAsTheWholeDoes)
   const petsc::Matrix K = chains(n, 3);
   const Factorization factorization(K);
   ASSERT_TRUE(solves_for_parts(factorization.factor()));
-  const auto sets = decoupled_rows(K, diagonal(n, 0, 0));
+  const auto sets = decoupled_rows(K, diagonal_and_entry(n, 0, 0));
   ASSERT_EQ(sets.size(), 3u);
   petsc::Matrix X = uninitialized_dense(K, n_columns);
   const auto fill = [](Mat B, IS rows) {

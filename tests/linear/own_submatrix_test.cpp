@@ -16,15 +16,15 @@
 namespace chladni::linear {
 namespace {
 
-constexpr PetscInt n = 40;
+constexpr PetscInt matrix_order = 40;
 
 /// Entry (i, j) is 100 i + j, so that each tells where it comes from; five diagonals and a far one.
 petsc::Matrix numbered()
 {
-  return testing::matrix(n, 8, [](PetscInt i) {
+  return testing::matrix(matrix_order, 8, [](PetscInt i) {
     testing::Row row;
-    for (const PetscInt j : {i - 2, i - 1, i, i + 1, i + 2, n - 1 - i})
-      if (j >= 0 && j < n) row.emplace_back(j, 100.0 * i + j);
+    for (const PetscInt j : {i - 2, i - 1, i, i + 1, i + 2, matrix_order - 1 - i})
+      if (j >= 0 && j < matrix_order) row.emplace_back(j, 100.0 * i + j);
     return row;
   });
 }
@@ -82,8 +82,8 @@ TEST(OwnSubmatrix, HasTheEntriesOfItsRowsAndColumnsInTheirOrder)
       EXPECT_EQ(values[k], 100.0 * own[i] + column);
     }
     petsc::check(MatRestoreRow(block, row, &n_entries, &places, &values));
-    for (PetscInt j = 0; j < n; ++j) {
-      const bool is_entry = std::abs(own[i] - j) <= 2 || own[i] + j == n - 1;
+    for (PetscInt j = 0; j < matrix_order; ++j) {
+      const bool is_entry = std::abs(own[i] - j) <= 2 || own[i] + j == matrix_order - 1;
       if (is_entry && std::ranges::find(all_columns, j) != all_columns.end()) expected.push_back(j);
     }
     std::ranges::sort(found);
@@ -145,7 +145,7 @@ TEST(EliminationOrder, IsTheOneThatAMatrixWasGiven)
   const petsc::Matrix A = numbered();
   std::vector<int> backwards;
   if (petsc::rank(PETSC_COMM_WORLD) == 0)
-    for (int place = n; place > 0; --place) backwards.push_back(place);
+    for (int place = matrix_order; place > 0; --place) backwards.push_back(place);
   keep_order(A, backwards);
   EXPECT_EQ(elimination_order(A), backwards);
 }

@@ -153,7 +153,8 @@ TEST(BodyFile, HoldsABodyWithoutRingPictureAndDamping)
 
 /// What reading says after `damage` was done to the body before it was written.
 template <class Damage>
-std::string error_after(const ScratchFolder& folder, const ModalBody& sound, Damage damage)
+std::string error_of_damaged_body(const ScratchFolder& folder, const ModalBody& sound,
+                                  Damage damage)
 {
   ModalBody body = sound;
   damage(body);
@@ -166,7 +167,7 @@ TEST(BodyFile, IsRefusedWhenItsContentMakesNoSense)
   const ScratchFolder folder;
   const ModalBody sound = complete_body();
   const auto expect = [&](const std::string& part, auto damage) {
-    const std::string text = error_after(folder, sound, damage);
+    const std::string text = error_of_damaged_body(folder, sound, damage);
     EXPECT_NE(text.find(part), std::string::npos) << "'" << text << "' lacks '" << part << "'";
   };
   expect("modes/frequencies", [](ModalBody& b) { b.omega[8] = b.omega[7] - 1.0; });

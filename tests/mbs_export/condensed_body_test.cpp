@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-ModalBody held_wheel()
+ModalBody wheel_on_hub()
 {
   BodyOptions options;
   options.fixed = {"hub"};
@@ -37,7 +37,7 @@ MatrixXd random_shapes(Index n, Index k)
 
 TEST(CondensedBody, OfSomeOfItsModesHasTheseModes)
 {
-  const ModalBody body = held_wheel();
+  const ModalBody body = wheel_on_hub();
   const std::vector<int> kept{1, 4, 5};
   MatrixXd shapes = MatrixXd::Zero(body.n_modes(), 4);
   for (Index j = 0; j < 3; ++j) shapes(kept[static_cast<std::size_t>(j)], j) = 2.0 + double(j);
@@ -53,7 +53,7 @@ TEST(CondensedBody, OfSomeOfItsModesHasTheseModes)
 
 TEST(CondensedBody, HasTheResponseOfItsShapesToForces)
 {
-  const ModalBody body = held_wheel();
+  const ModalBody body = wheel_on_hub();
   const MatrixXd shapes = random_shapes(body.n_modes(), 5);
   const ModalBody few = condensed(body, shapes);
   ASSERT_EQ(few.n_modes(), 5);
@@ -82,7 +82,7 @@ TEST(CondensedBody, HasTheResponseOfItsShapesToForces)
 
 TEST(CondensedBody, IsASoundBody)
 {
-  const ModalBody body = held_wheel();
+  const ModalBody body = wheel_on_hub();
   const ModalBody few = condensed(body, random_shapes(body.n_modes(), 6));
   for (const Check& check : check_body(few))
     EXPECT_NE(check.verdict, Verdict::fail) << check.name << ": " << check.value;
@@ -90,7 +90,7 @@ TEST(CondensedBody, IsASoundBody)
 
 TEST(CondensedBody, RefusesNoShapes)
 {
-  const ModalBody body = held_wheel();
+  const ModalBody body = wheel_on_hub();
   EXPECT_THROW(condensed(body, MatrixXd::Zero(body.n_modes(), 2)), Error);
   EXPECT_THROW(condensed(body, MatrixXd::Identity(body.n_modes() + 1, 2)), Error);
 }

@@ -34,14 +34,14 @@ ResponseOptions cantilever_options(double loss_factor)
 }
 
 /// Held at A, with all modes.
-BodyOptions held(Damping damping)
+BodyOptions held_with(Damping damping)
 {
   return {.fixed = {"A"}, .keep = {}, .interface_modes = {}, .damping = std::move(damping)};
 }
 
 ModalBody cantilever(Damping damping = {})
 {
-  return make_body(test::regression_beam(), held(std::move(damping)));
+  return make_body(test::regression_beam(), held_with(std::move(damping)));
 }
 
 /// Tip displacement for a tip force of a cantilever with EI = (1 + i eta), L = rho A = 1:
@@ -96,7 +96,7 @@ TEST(FrequencyResponses, SolveTheEquationOfADamperBetweenTheModes)
   ReducedSystem reduced = test::reduced_beam(60, 12);
   reduced.C = MatrixXd::Zero(reduced.K.rows(), reduced.K.cols());
   reduced.C(2, 2) = 0.7;  // of w at B
-  const ModalBody body = make_body(reduced, held({.type = Damping::Type::matrix}));
+  const ModalBody body = make_body(reduced, held_with({.type = Damping::Type::matrix}));
   const FrequencyResponses found = frequency_responses(body, cantilever_options(0.01));
   const FreeRows rows = free_rows(reduced, reduced.C);
   VectorXcd direct(found.Omega.size());
@@ -115,7 +115,7 @@ TEST(FrequencyResponses, OfProportionalDampingAreThoseOfItsMatrix)
   reduced.C = 0.3 * reduced.M + 1e-4 * reduced.K;
   const ResponseOptions options = cantilever_options(0.0);
   const FrequencyResponses by_matrix =
-      frequency_responses(make_body(reduced, held({.type = Damping::Type::matrix})), options);
+      frequency_responses(make_body(reduced, held_with({.type = Damping::Type::matrix})), options);
   const FrequencyResponses by_factors = frequency_responses(
       cantilever({.type = Damping::Type::rayleigh, .alpha = 0.3, .beta = 1e-4}), options);
   for (std::size_t l = 0; l < 2; ++l)

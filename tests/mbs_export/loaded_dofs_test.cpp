@@ -21,7 +21,7 @@ LoadedDofs loads_of(const ReducedSystem& reduced, const std::vector<std::string>
   return loaded_dofs(reduced, held_dofs(reduced, fixed), wanted);
 }
 
-InterfaceModes frm(const std::string& at, const std::vector<int>& components)
+InterfaceModes frm_of(const std::string& at, const std::vector<int>& components)
 {
   return {.kind = InterfaceModes::Kind::frm, .at = at, .components = components, .omega0 = {}};
 }
@@ -67,7 +67,7 @@ TEST(LoadedDofs, SpanTheSameLoadsInHarmonicsAsInNodes)
     const Eigen::Matrix3d turn =
         Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     for (AttachmentNode& node : wheel.attachment_nodes) node.position = turn * node.position;
-    const LoadedDofs loads = loads_of(wheel, {"hub"}, {frm("rim", {0, 1, 2})});
+    const LoadedDofs loads = loads_of(wheel, {"hub"}, {frm_of("rim", {0, 1, 2})});
     ASSERT_EQ(loads.dofs.size(), 36u);
     const MatrixXd P = all_patterns(loads);
     ASSERT_EQ(P.cols(), 36);
@@ -78,7 +78,7 @@ TEST(LoadedDofs, SpanTheSameLoadsInHarmonicsAsInNodes)
 TEST(LoadedDofs, TurnsTheForcesInThePlaneOfARingIntoEachOther)
 {
   // A group of x and y must hold its own image when the wheel is turned by one node.
-  const LoadedDofs loads = loads_of(test::wheel(), {"hub"}, {frm("rim", {0, 1})});
+  const LoadedDofs loads = loads_of(test::wheel(), {"hub"}, {frm_of("rim", {0, 1})});
   const double angle = 2.0 * std::numbers::pi / test::wheel_rim_nodes;
   MatrixXd turn = MatrixXd::Zero(24, 24);
   for (int i = 0; i < 12; ++i) {
@@ -101,9 +101,9 @@ TEST(LoadedDofs, RefusesWhatCannotBeLoaded)
                            const std::vector<InterfaceModes>& wanted) {
     return files::test::error_of([&] { loads_of(wheel, fixed, wanted); });
   };
-  EXPECT_NE(message({"hub"}, {frm("hub", {2})}).find("hub.z is held"), std::string::npos);
+  EXPECT_NE(message({"hub"}, {frm_of("hub", {2})}).find("hub.z is held"), std::string::npos);
   EXPECT_NE(message({"hub", "rim"}, {}).find("every attachment DOF is held"), std::string::npos);
-  EXPECT_NE(message({"hub"}, {frm("track", {2})}).find("'rim', 'hub'"), std::string::npos);
+  EXPECT_NE(message({"hub"}, {frm_of("track", {2})}).find("'rim', 'hub'"), std::string::npos);
 }
 
 }  // namespace

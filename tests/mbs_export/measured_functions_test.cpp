@@ -165,7 +165,7 @@ TEST_F(MeasuredFunctionsFile, HasRealValuesWithoutAnImaginaryPart)
 
 /// The numbers as bytes of either order.
 template <class Real>
-std::string bytes_of(const std::vector<Real>& numbers, bool is_little_endian)
+std::string bytes_of_numbers(const std::vector<Real>& numbers, bool is_little_endian)
 {
   std::string all;
   for (const Real number : numbers) {
@@ -190,18 +190,18 @@ TEST_F(MeasuredFunctionsFile, IsReadInBytesOfEitherOrder)
   const std::vector<float> halves{10, 1, 2, 12.5, 3, 4, 15, 5, 6};
   for (const int order : {1, 2}) {
     SCOPED_TRACE(order);
-    expect_one_to_six(head(even_double, binary_head(order, 48)) + bytes_of(numbers, order == 1) +
-                      "    -1\n");
+    expect_one_to_six(head(even_double, binary_head(order, 48)) +
+                      bytes_of_numbers(numbers, order == 1) + "    -1\n");
     expect_one_to_six(head("         5         3         0  0.00000E+00  0.00000E+00  0.00000E+00",
                            binary_head(order, 36)) +
-                      bytes_of(halves, order == 1) + "\n    -1\n");
+                      bytes_of_numbers(halves, order == 1) + "\n    -1\n");
     // A number of bytes that is half of the truth, and a line of -1 among them.
     std::vector<double> disguised = numbers;
     std::string delimiter = "\n    -1\n";
     if (order == 2) std::ranges::reverse(delimiter);
     std::memcpy(&disguised[1], delimiter.data(), 8);
-    EXPECT_EQ(read(head(even_double, binary_head(order, 24)) + bytes_of(disguised, order == 1) +
-                       "    -1\n",
+    EXPECT_EQ(read(head(even_double, binary_head(order, 24)) +
+                       bytes_of_numbers(disguised, order == 1) + "    -1\n",
                    1.0)
                   .functions[0]
                   .H[2],

@@ -31,7 +31,7 @@ const std::string nodes = R"(    -1
          9         0         0         1  2.50000E+02  0.00000E+00 -1.00000E+00
     -1
 )";
-const std::string shapes = R"(    -1
+const std::string shape_dataset = R"(    -1
     55
 First bending
 NONE
@@ -89,7 +89,7 @@ std::string changed(std::string text, const std::string& from, const std::string
 
 TEST_F(MeasuredModesFile, HasNodesFrequenciesAndShapes)
 {
-  const MeasuredModes modes = read(metric + nodes + shapes);
+  const MeasuredModes modes = read(metric + nodes + shape_dataset);
   ASSERT_EQ(modes.nodes.size(), 2U);
   EXPECT_EQ(modes.nodes[1].number, 9);
   EXPECT_NEAR(modes.nodes[1].position[0], 0.25, 1e-15);
@@ -112,16 +112,16 @@ TEST_F(MeasuredModesFile, TakesNodesInTwoLinesAndLengthsOfAGivenUnit)
    2.5000000000000000E+02   0.0000000000000000E+00  -1.0000000000000000E+00
     -1
 )";
-  const MeasuredModes modes = read(wide + shapes, 1e-3);
+  const MeasuredModes modes = read(wide + shape_dataset, 1e-3);
   EXPECT_NEAR(modes.nodes[0].position[1], 0.01, 1e-15);
 }
 
 TEST_F(MeasuredModesFile, RefusesWhatItDoesNotKnowByItsLine)
 {
-  EXPECT_NE(refused(nodes + shapes).find("--length-unit"), std::string::npos);
-  EXPECT_NE(refused(metric + shapes).find("node 7"), std::string::npos);
+  EXPECT_NE(refused(nodes + shape_dataset).find("--length-unit"), std::string::npos);
+  EXPECT_NE(refused(metric + shape_dataset).find("node 7"), std::string::npos);
   EXPECT_NE(refused(metric + nodes).find("no mode shapes"), std::string::npos);
-  const std::string whole = metric + nodes + shapes;
+  const std::string whole = metric + nodes + shape_dataset;
   EXPECT_NE(refused(changed(whole, "    15\n", "    15b\n")).find(":8: "), std::string::npos);
   EXPECT_NE(refused(changed(whole, "  1.25500E+02", "        1e,25")).find(":21: "),
             std::string::npos);
@@ -138,7 +138,7 @@ TEST_F(MeasuredModesFile, RefusesWhatItDoesNotKnowByItsLine)
 
 TEST_F(MeasuredModesFile, LeavesOutWhatIsNoModeWithANote)
 {
-  const std::string whole = metric + nodes + shapes;
+  const std::string whole = metric + nodes + shape_dataset;
   EXPECT_TRUE(read(whole).notes.empty());
   const std::string function = "    -1\n    58\na function\n    -1\n";
   const std::string others = function + "    -1\n  2414\n1\n    -1\nwords of people\n" + whole;

@@ -14,11 +14,11 @@ namespace {
 using Eigen::Index, Eigen::MatrixXcd, Eigen::MatrixXd, Eigen::VectorXcd, Eigen::VectorXd;
 using Complex = std::complex<double>;
 
-constexpr double hertz = 2.0 * std::numbers::pi;  // rad/s
+constexpr double one_hertz = 2.0 * std::numbers::pi;  // rad/s
 
 /// Nine modes, among them a pair, under two forces; the second mode does not feel them.
 const VectorXd omega{{2.0, 3.0, 5.0, 5.0, 9.0, 12.0, 16.0, 20.0, 30.0}};
-MatrixXd shapes()
+MatrixXd loaded_shapes()
 {
   MatrixXd B(9, 2);
   for (Index k = 0; k < 9; ++k)
@@ -34,8 +34,8 @@ LoadedDofs two_forces()
 
 ReferenceResponse reference(double up_to)
 {
-  return reference_response(omega, shapes(), two_forces(),
-                            {.error = 1e-3, .up_to_Hz = up_to / hertz});
+  return reference_response(omega, loaded_shapes(), two_forces(),
+                            {.error = 1e-3, .up_to_Hz = up_to / one_hertz});
 }
 
 /// H - B^T Q (Q^T D Q)^-1 Q^T B of any basis Q.
@@ -140,7 +140,7 @@ TEST(ReferenceResponse, IsDampedByOnePerCentOfTheCriticalDamping)
   const VectorXd one{{4.0}};
   const ReferenceResponse complete = reference_response(
       one, MatrixXd::Ones(1, 1), {.dofs = {0}, .is_moment = {0}, .names = {}, .groups = {}},
-      {.error = 1e-3, .up_to_Hz = 4.0 / hertz});
+      {.error = 1e-3, .up_to_Hz = 4.0 / one_hertz});
   // At resonance the response is the static one over 2 zeta.
   const double static_response = std::abs(complete.H.front()(0, 0));
   EXPECT_NEAR(std::abs(complete.H.back()(0, 0)) / static_response, 50.0, 0.02);  // |1 + 0.02 i|
@@ -151,8 +151,8 @@ TEST(ReferenceResponse, DoesNotDependOnTheUnitOfLength)
   // In millimetres displacements grow by 1000 and rotations do not.
   LoadedDofs loads = two_forces();
   loads.is_moment[1] = 1;
-  MatrixXd B = shapes();
-  const Tolerance tolerance{.error = 1e-3, .up_to_Hz = 8.0 / hertz};
+  MatrixXd B = loaded_shapes();
+  const Tolerance tolerance{.error = 1e-3, .up_to_Hz = 8.0 / one_hertz};
   const ReferenceResponse metres = reference_response(omega, B, loads, tolerance);
   B.col(0) *= 1000.0;
   const ReferenceResponse millimetres = reference_response(omega, B, loads, tolerance);

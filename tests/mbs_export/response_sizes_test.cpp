@@ -19,7 +19,7 @@ constexpr double up_to_Hz = 2000.0;
 constexpr double tolerance = 1e-2;
 
 /// The wheel held at its hub, loaded normal to its plane all around the rim.
-BodyOptions loaded_rim()
+BodyOptions rim_options()
 {
   BodyOptions options;
   options.fixed = {"hub"};
@@ -30,7 +30,7 @@ BodyOptions loaded_rim()
 TEST(ResponseSizes, AreThoseOfTheLoadsOfTheTolerance)
 {
   const ReducedSystem wheel = test::wheel();
-  const ResponseSizes sizes = response_sizes(wheel, loaded_rim());
+  const ResponseSizes sizes = response_sizes(wheel, rim_options());
   ASSERT_FALSE(sizes.rows.empty());
   for (const int row : sizes.rows) EXPECT_EQ(wheel.masters[std::size_t(row)].component, 2);
   EXPECT_NEAR(sizes.Omega[sizes.Omega.size() - 1], 2.0 * std::numbers::pi * up_to_Hz, 1e-9);
@@ -82,7 +82,7 @@ ReducedSystem certified_wheel(double error)
   wheel.certificate.fixed = {"hub"};
   wheel.certificate.responses = ResponseCheck{.up_to = 2.0 * std::numbers::pi * up_to_Hz,
                                               .error = error,
-                                              .loads = response_sizes(wheel, loaded_rim()).names};
+                                              .loads = response_sizes(wheel, rim_options()).names};
   return wheel;
 }
 
@@ -95,7 +95,7 @@ double error_of_choice(const ModalBody& body)
 TEST(CertifiedResponses, LeaveTheBodyTheRestOfTheTolerance)
 {
   for (const double of_reduction : {1e-3, 0.7 * tolerance}) {
-    const ModalBody body = make_body(certified_wheel(of_reduction), loaded_rim());
+    const ModalBody body = make_body(certified_wheel(of_reduction), rim_options());
     EXPECT_EQ(body.selection->error, tolerance);
     EXPECT_EQ(body.selection->of_reduction, of_reduction);
     EXPECT_LE(error_of_choice(body) + of_reduction, tolerance);
@@ -104,29 +104,29 @@ TEST(CertifiedResponses, LeaveTheBodyTheRestOfTheTolerance)
 
 TEST(CertifiedResponses, AboveTheToleranceAreTold)
 {
-  const ModalBody body = make_body(certified_wheel(2.0 * tolerance), loaded_rim());
+  const ModalBody body = make_body(certified_wheel(2.0 * tolerance), rim_options());
   EXPECT_EQ(body.selection->of_reduction, 2.0 * tolerance);
   EXPECT_LE(error_of_choice(body), tolerance);  // the best that a body can do
 }
 
 TEST(CertifiedResponses, AreOfOneSupportOneRangeAndTheirLoads)
 {
-  EXPECT_FALSE(make_body(test::wheel(), loaded_rim()).selection->of_reduction);
+  EXPECT_FALSE(make_body(test::wheel(), rim_options()).selection->of_reduction);
   ReducedSystem other_support = certified_wheel(1e-3);
   other_support.certificate.fixed = {};
-  EXPECT_FALSE(make_body(other_support, loaded_rim()).selection->of_reduction);
+  EXPECT_FALSE(make_body(other_support, rim_options()).selection->of_reduction);
   ReducedSystem other_loads = certified_wheel(1e-3);
   other_loads.certificate.responses->loads = {"rim.x"};
-  EXPECT_FALSE(make_body(other_loads, loaded_rim()).selection->of_reduction);
+  EXPECT_FALSE(make_body(other_loads, rim_options()).selection->of_reduction);
   ReducedSystem lower_range = certified_wheel(1e-3);
   lower_range.certificate.responses->up_to *= 0.5;
-  EXPECT_FALSE(make_body(lower_range, loaded_rim()).selection->of_reduction);
+  EXPECT_FALSE(make_body(lower_range, rim_options()).selection->of_reduction);
 }
 
 TEST(CertifiedResponses, AreKeptInTheBodyFile)
 {
   const files::test::ScratchFolder folder;
-  const ModalBody body = make_body(certified_wheel(1e-3), loaded_rim());
+  const ModalBody body = make_body(certified_wheel(1e-3), rim_options());
   write_body(folder.file("a.h5"), body);
   EXPECT_EQ(read_body(folder.file("a.h5")).selection->of_reduction, 1e-3);
 }

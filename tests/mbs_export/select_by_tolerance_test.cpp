@@ -19,11 +19,11 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXcd, Eigen::MatrixXd, Eigen::VectorXd;
 
-constexpr double omega_1_free = 22.3732854528785649;  // rad/s, free beam of 300 elements
-constexpr double hertz = 2.0 * std::numbers::pi;      // rad/s
+constexpr double omega_1_of_beam = 22.3732854528785649;  // rad/s, free beam of 300 elements
+constexpr double hertz = 2.0 * std::numbers::pi;         // rad/s
 
 /// Rows of `attachment_modes`.
-constexpr int theta_B = 6 + 4;
+constexpr int rotation_of_B = 6 + 4;
 
 InterfaceModes interface_modes(InterfaceModes::Kind kind, std::optional<double> omega0)
 {
@@ -36,7 +36,7 @@ BodyOptions moment_at_B(double error)
   BodyOptions options;
   options.fixed = {"A"};
   options.interface_modes = {interface_modes(InterfaceModes::Kind::frm, {})};
-  options.keep.tolerance = Tolerance{.error = error, .up_to_Hz = 3.0 * omega_1_free / hertz};
+  options.keep.tolerance = Tolerance{.error = error, .up_to_Hz = 3.0 * omega_1_of_beam / hertz};
   return options;
 }
 
@@ -88,7 +88,7 @@ double largest_error(const ModalBody& body, const ModalBody& complete, const std
   return largest;
 }
 
-ModalBody complete_body(const ReducedSystem& reduced, const BodyOptions& options)
+ModalBody unselected_body(const ReducedSystem& reduced, const BodyOptions& options)
 {
   BodyOptions all = options;
   all.keep = {};
@@ -111,10 +111,10 @@ TEST(SelectByTolerance, MeetsItBetweenTheFrequenciesThatWereCompared)
     const BodyOptions moment = moment_at_B(error), rim = loaded_rim(error);
     // Between grid points the error may exceed that on the grid a little: its peaks are as wide as
     // the resonances, which the grid resolves by three points.
-    EXPECT_LT(largest_error(make_body(beam, moment), complete_body(beam, moment), {theta_B},
-                            3.0 * omega_1_free),
+    EXPECT_LT(largest_error(make_body(beam, moment), unselected_body(beam, moment), {rotation_of_B},
+                            3.0 * omega_1_of_beam),
               1.2 * error);
-    EXPECT_LT(largest_error(make_body(wheel, rim), complete_body(wheel, rim), rim_z(),
+    EXPECT_LT(largest_error(make_body(wheel, rim), unselected_body(wheel, rim), rim_z(),
                             rim_range_Hz * hertz),
               1.2 * error);
   }
@@ -125,16 +125,16 @@ TEST(SelectByTolerance, FindsNoMoreThanFiveModesAndOneFrequencyResponseModeOnThe
   // The basis of the thesis, and its accuracy by the same measure.
   const ReducedSystem& beam = test::regression_beam();
   BodyOptions options = moment_at_B(0.5);
-  const ModalBody complete = complete_body(beam, options);
+  const ModalBody complete = unselected_body(beam, options);
   options.keep = {.count = 5, .up_to_Hz = {}, .list = {}};
   const ModalBody by_hand = make_body(beam, options);
   ASSERT_EQ(by_hand.n_modes(), 6);
-  const double error = largest_error(by_hand, complete, {theta_B}, 3.0 * omega_1_free);
+  const double error = largest_error(by_hand, complete, {rotation_of_B}, 3.0 * omega_1_of_beam);
   EXPECT_LT(error, 1e-2);
   const ModalBody chosen = make_body(beam, moment_at_B(error));
   EXPECT_LE(chosen.n_modes(), 6);
   // As above between the grid points.
-  EXPECT_LT(largest_error(chosen, complete, {theta_B}, 3.0 * omega_1_free), 1.2 * error);
+  EXPECT_LT(largest_error(chosen, complete, {rotation_of_B}, 3.0 * omega_1_of_beam), 1.2 * error);
   // Modes alone are far from it: a moment's response converges slowly in modes.
   EXPECT_GT(chosen.selection->modes_only.back().size(), 30);
 }
@@ -168,14 +168,14 @@ TEST(SelectByTolerance, ReportsTheErrorOfTheBodyThatIsMade)
   const BodyOptions options = loaded_rim(1e-4);
   const ModalBody body = make_body(wheel, options);
   const double error =
-      largest_error(body, complete_body(wheel, options), rim_z(), rim_range_Hz * hertz);
+      largest_error(body, unselected_body(wheel, options), rim_z(), rim_range_Hz * hertz);
   EXPECT_NEAR(error / body.selection->with_interface_modes.back().error, 1.0, 0.2);
 }
 
 TEST(SelectByTolerance, KeepsResonancesThatAreExcitedAndNoOthers)
 {
   const ReducedSystem wheel = test::wheel();
-  const ModalBody complete = complete_body(wheel, loaded_rim(1e-2));
+  const ModalBody complete = unselected_body(wheel, loaded_rim(1e-2));
   const ModalBody body = make_body(wheel, loaded_rim(1e-2));
   int n_excited = 0, n_silent = 0;
   for (Index k = 0; k < complete.n_modes() && complete.omega[k] < rim_range_Hz * hertz; ++k) {
@@ -228,8 +228,8 @@ TEST(SelectByTolerance, TakesNoInterfaceModeAtTheResonanceOfAModeThatIsNeglected
   // The response of a neglected mode at its own frequency has no limit. The fourth mode lies beyond
   // the range, and no resonance asks for it.
   BodyOptions options = moment_at_B(1e-3);
-  const double omega_4 = complete_body(test::regression_beam(), options).omega[3];
-  ASSERT_GT(omega_4, 1.5 * 3.0 * omega_1_free);
+  const double omega_4 = unselected_body(test::regression_beam(), options).omega[3];
+  ASSERT_GT(omega_4, 1.5 * 3.0 * omega_1_of_beam);
   options.interface_modes = {interface_modes(InterfaceModes::Kind::frm, omega_4)};
   const ModalBody body = make_body(test::regression_beam(), options);
   bool has_mode_4 = false;
@@ -257,7 +257,7 @@ TEST(SelectByTolerance, KeepsTheRigidMotionsOfAFreeBody)
   BodyOptions options;
   options.interface_modes = {
       {.kind = InterfaceModes::Kind::frm, .at = "B", .components = {2, 4}, .omega0 = {}}};
-  options.keep.tolerance = Tolerance{.error = 1e-3, .up_to_Hz = 3.0 * omega_1_free / hertz};
+  options.keep.tolerance = Tolerance{.error = 1e-3, .up_to_Hz = 3.0 * omega_1_of_beam / hertz};
   const ModalBody body = make_body(test::regression_beam(), options);
   EXPECT_EQ(std::ranges::count(body.kinds, ModeKind::rigid), 2);
   EXPECT_EQ(body.selection->with_interface_modes.front().added, "modes 1, 2");

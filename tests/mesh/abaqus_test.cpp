@@ -15,22 +15,22 @@ using testing::expect_words;
 using testing::MeshFile;
 using testing::Refusal;
 
-Deck deck_of(const std::string& text)
+Deck deck_of_abaqus(const std::string& text)
 {
   return abaqus_deck(abaqus_keywords(text));
 }
 
-Declarations declared_by(const std::string& text, double length_unit)
+Declarations declared_by_abaqus(const std::string& text, double length_unit)
 {
   const std::vector<Keyword> keywords = abaqus_keywords(text);
   return abaqus_declarations(keywords, abaqus_deck(keywords),
                              {.length = length_unit, .force = 1.0});
 }
 
-std::string error_in(const std::string& text)
+std::string error_in_abaqus(const std::string& text)
 {
   try {
-    declared_by(text, 1e-3);
+    declared_by_abaqus(text, 1e-3);
   } catch (const Error& error) {
     return error.what();
   }
@@ -38,19 +38,21 @@ std::string error_in(const std::string& text)
 }
 
 const std::string four_nodes = "*Node, nset=All\n1, 0., 0., 0.\n2, 2.\n3, 2., 1.\n4, 0., 1.\n";
-const std::string square = four_nodes + "*Element, type=S4R, elset=Plate\n1, 1, 2, 3, 4\n";
-const std::string steel = "*Material, name=Steel\n*Density\n7.85e-9,\n*Elastic\n210000., 0.3\n";
-const std::string plate = square + steel + "*Shell Section, elset=Plate, material=Steel\n2., 5\n";
+const std::string abaqus_square = four_nodes + "*Element, type=S4R, elset=Plate\n1, 1, 2, 3, 4\n";
+const std::string abaqus_steel =
+    "*Material, name=Steel\n*Density\n7.85e-9,\n*Elastic\n210000., 0.3\n";
+const std::string abaqus_plate =
+    abaqus_square + abaqus_steel + "*Shell Section, elset=Plate, material=Steel\n2., 5\n";
 
 TEST(AbaqusDeck, NamesItsGroupsBySetsAndSections)
 {
-  const Mesh mesh =
-      mesh_of(deck_of("*Heading\n** a comment\n" + plate +
-                      "*Nset, nset=Edge\n1, 2\n*Nset, nset=Plate, generate\n1, 3, 2\n"
-                      "*Nset, nset=Both\nEdge, 4\n*Element, type=B31, elset=Rib\n7, 1, 2\n"
-                      "*Elset, elset=Rest,\ninternal\n1\n*Surface, type=node, name=S\nEdge, 1.\n"
-                      "*Boundary\n3, 1, 3\n*Step\n*Whatever\n*End Step\n"),
-              {.line_groups = {"RIB"}});
+  const Mesh mesh = mesh_of(
+      deck_of_abaqus("*Heading\n** a comment\n" + abaqus_plate +
+                     "*Nset, nset=Edge\n1, 2\n*Nset, nset=Plate, generate\n1, 3, 2\n"
+                     "*Nset, nset=Both\nEdge, 4\n*Element, type=B31, elset=Rib\n7, 1, 2\n"
+                     "*Elset, elset=Rest,\ninternal\n1\n*Surface, type=node, name=S\nEdge, 1.\n"
+                     "*Boundary\n3, 1, 3\n*Step\n*Whatever\n*End Step\n"),
+      {.line_groups = {"RIB"}});
   EXPECT_EQ(find_group(mesh, "PLATE").nodes, (std::vector<int>{0, 1, 2, 3}));
   EXPECT_EQ(find_group(mesh, "PLATE").dimension, 2);
   EXPECT_EQ(find_group(mesh, "PLATE_nodes").nodes, (std::vector<int>{0, 2}));
@@ -78,36 +80,36 @@ TEST_F(AbaqusFile, IsReadInItsUnitByAProcessOfItsOwn)
     EXPECT_NEAR(area(mesh), 2e-6, 1e-18) << of_kind;
   }
   const Declarations declared =
-      declarations({.file = write("b.inp", plate)}, {.length = 1e-3, .force = 1.0});
+      declarations({.file = write("b.inp", abaqus_plate)}, {.length = 1e-3, .force = 1.0});
   EXPECT_EQ(declared.shells.size(), 1U);
 }
 
 TEST_F(AbaqusFile, ErrorsNameFileLineAndKeyword)
 {
-  const std::string file = write("a.inp", square + "*Element, type=C3D8R\n2, 1, 2, 3, 4\n");
+  const std::string file = write("a.inp", abaqus_square + "*Element, type=C3D8R\n2, 1, 2, 3, 4\n");
   expect_words(error_of({.file = file}), {"a.inp", "line 8", "*ELEMENT", "C3D8R", "mid-surface"});
   expect_words(error_of({.file = path("absent.inp")}), {"absent.inp", "does not exist"});
 }
 
 TEST(AbaqusLines, OfThreeNodesAreOfOrderTwo)
 {
-  const Mesh mesh =
-      mesh_of(deck_of("*Node\n1, 0.\n2, 1.\n3, 2.\n*Element, type=B32, elset=Rib\n1, 1, 2, 3\n"),
-              {.line_groups = {"RIB"}});
+  const Mesh mesh = mesh_of(
+      deck_of_abaqus("*Node\n1, 0.\n2, 1.\n3, 2.\n*Element, type=B32, elset=Rib\n1, 1, 2, 3\n"),
+      {.line_groups = {"RIB"}});
   EXPECT_EQ(mesh.blocks.at(0).order, 2);
   EXPECT_EQ(mesh.blocks.at(0).nodes, (std::vector<int>{0, 1, 2}));
 }
 
 TEST(AbaqusDeclarations, AreInSI)
 {
-  const Declarations in_mm =
-      declared_by(square + steel +
-                      "*Shell Section, elset=Plate, material=Steel, offset=SPOS\n2., 5\n"
-                      "*Element, type=B31, elset=Rib\n7, 1, 2\n"
-                      "*Beam Section, elset=Rib, material=Steel, section=RECT\n4., 2.\n0., 0., 1.\n"
-                      "*Element, type=B31, elset=Tube\n8, 1, 2\n"
-                      "*Beam Section, elset=Tube, material=Steel, section=PIPE\n5., 1.\n",
-                  1e-3);
+  const Declarations in_mm = declared_by_abaqus(
+      abaqus_square + abaqus_steel +
+          "*Shell Section, elset=Plate, material=Steel, offset=SPOS\n2., 5\n"
+          "*Element, type=B31, elset=Rib\n7, 1, 2\n"
+          "*Beam Section, elset=Rib, material=Steel, section=RECT\n4., 2.\n0., 0., 1.\n"
+          "*Element, type=B31, elset=Tube\n8, 1, 2\n"
+          "*Beam Section, elset=Tube, material=Steel, section=PIPE\n5., 1.\n",
+      1e-3);
   EXPECT_NEAR(in_mm.materials.at(0).young, 2.1e11, 1.0);
   EXPECT_NEAR(in_mm.materials.at(0).density, 7850.0, 1e-9);
   EXPECT_DOUBLE_EQ(in_mm.shells.at(0).thickness, 2e-3);
@@ -126,8 +128,8 @@ TEST(AbaqusDeclarations, HoldTheReferenceNodeOfACoupling)
   const std::string coupling =
       "*Node\n9, 1., .5\n*Nset, nset=Ref\n9\n*Nset, nset=Edge\n1, 2\n"
       "*Surface, type=NODE, name=S\nEdge\n*Coupling, constraint name=C, ref node=Ref, surface=S\n";
-  const Declarations rigid =
-      declared_by(plate + coupling + "*Kinematic\n1, 6\n*Boundary\nRef, ENCASTRE\n3, 1, 2\n", 1.0);
+  const Declarations rigid = declared_by_abaqus(
+      abaqus_plate + coupling + "*Kinematic\n1, 6\n*Boundary\nRef, ENCASTRE\n3, 1, 2\n", 1.0);
   ASSERT_EQ(rigid.couplings.size(), 1U);
   EXPECT_EQ(rigid.couplings[0].name, "node_9");
   EXPECT_EQ(rigid.couplings[0].group, "surface_S");
@@ -138,7 +140,7 @@ TEST(AbaqusDeclarations, HoldTheReferenceNodeOfACoupling)
   EXPECT_EQ(rigid.supports[0].components.size(), 6U);
   EXPECT_EQ(rigid.supports[1].group, "boundary_3");
   EXPECT_EQ(rigid.supports[1].components, (std::vector<int>{0, 1}));
-  EXPECT_EQ(declared_by(plate + coupling + "*Distributing\n", 1.0).couplings[0].kind,
+  EXPECT_EQ(declared_by_abaqus(abaqus_plate + coupling + "*Distributing\n", 1.0).couplings[0].kind,
             CouplingOfDeck::averaging);
 }
 
@@ -158,8 +160,9 @@ TEST(AbaqusKeywords, MayHaveBlanksAndGoOnBehindAComma)
 
 TEST(AbaqusDeck, HasSurfacesOfElementNumbersAndEdges)
 {
-  const Mesh mesh =
-      mesh_of(deck_of(plate + "*Surface, name=S\n1, SPOS\n*Surface, name=E\nPLATE, E2\n"), {});
+  const Mesh mesh = mesh_of(
+      deck_of_abaqus(abaqus_plate + "*Surface, name=S\n1, SPOS\n*Surface, name=E\nPLATE, E2\n"),
+      {});
   EXPECT_EQ(find_group(mesh, "surface_S").nodes.size(), 4U);
   EXPECT_EQ(find_group(mesh, "surface_E").nodes, (std::vector<int>{1, 2}));
 }
@@ -169,15 +172,15 @@ TEST(AbaqusDeclarations, HaveTheSupportsOfTheFirstStep)
   const std::string steps =
       "*Step, perturbation\n*Frequency\n5,\n*Nset, nset=Held\n1, 2\n*Boundary, op=MOD\n"
       "Held, ENCASTRE\n*End Step\n*Step\n*Boundary\n3, 1\n*End Step\n";
-  const Declarations declared = declared_by(plate + steps, 1.0);
+  const Declarations declared = declared_by_abaqus(abaqus_plate + steps, 1.0);
   ASSERT_EQ(declared.supports.size(), 1U);
   EXPECT_EQ(declared.supports[0].group, "HELD");
-  const Deck deck = deck_of(plate + steps);
+  const Deck deck = deck_of_abaqus(abaqus_plate + steps);
   ASSERT_EQ(deck.notes.size(), 2U);
   expect_words(deck.notes[1], {"line 24", "later step"});
 }
 
-const std::string part = "*Part, name=P\n" + square +
+const std::string part = "*Part, name=P\n" + abaqus_square +
                          "*Nset, nset=Edge\n1, 4\n*Shell Section, elset=Plate, material=Steel\n2.\n"
                          "*End Part\n";
 
@@ -190,15 +193,15 @@ TEST(AbaqusDeck, HasInstancesOfParts)
       "*Node, nset=Ref\n1, 7., 7., 7.\n*Nset, nset=Far, instance=P-2\n2, 3\n"
       "*Nset, nset=Far, instance=P-1\nEdge\n*Surface, type=NODE, name=S\nFar\n"
       "*Coupling, constraint name=C, ref node=Ref, surface=S\n*Kinematic\n*End Assembly\n" +
-      steel + "*Boundary\nP-1.Edge, 1\nP-2.3, 2\n";
-  const Deck deck = deck_of(part + assembly);
+      abaqus_steel + "*Boundary\nP-1.Edge, 1\nP-2.3, 2\n";
+  const Deck deck = deck_of_abaqus(part + assembly);
   EXPECT_EQ(deck.nodes.size(), 9U);
   EXPECT_EQ(deck.nodes.at(2), (std::array<double, 3>{2.0, 0.0, 0.0}));
   EXPECT_NEAR(deck.nodes.at(12)[0], 10.0, 1e-14);
   EXPECT_NEAR(deck.nodes.at(12)[1], 2.0, 1e-14);
   EXPECT_EQ(deck.nodes.at(21)[2], 7.0);
   expect_words(deck.notes.at(0), {"P-2", "from 10 on"});
-  const Declarations declared = declared_by(part + assembly, 1.0);
+  const Declarations declared = declared_by_abaqus(part + assembly, 1.0);
   ASSERT_EQ(declared.shells.size(), 2U);
   EXPECT_EQ(declared.shells[1].group, "P-2.PLATE");
   EXPECT_EQ(declared.supports.at(0).group, "P-1.EDGE");
@@ -213,54 +216,59 @@ class RefusedKeyword : public ::testing::TestWithParam<Refusal> {};
 
 TEST_P(RefusedKeyword, IsNamedWithItsLine)
 {
-  expect_refused(GetParam(), error_in(GetParam().text));
+  expect_refused(GetParam(), error_in_abaqus(GetParam().text));
 }
 
-const std::vector<Refusal> refusals{
-    {plate + "*Spring, elset=a\n", {"line 15", "*SPRING", "not known"}},
-    {plate + "*Part, name=P\n", {"*PART", "END PART"}},
-    {plate + "*Assembly, name=A\n*Instance, name=I, part=P\n*End Instance\n",
+const std::vector<Refusal> refused_keywords{
+    {abaqus_plate + "*Spring, elset=a\n", {"line 15", "*SPRING", "not known"}},
+    {abaqus_plate + "*Part, name=P\n", {"*PART", "END PART"}},
+    {abaqus_plate + "*Assembly, name=A\n*Instance, name=I, part=P\n*End Instance\n",
      {"line 16", "*INSTANCE", "no part \"P\""}},
-    {plate + "*Include, input=more.inp\n", {"line 15", "more.inp"}},
-    {square + "*Material, name=Steel\n*Elastic\n210000., 0.3\n"
-              "*Shell Section, elset=Plate, material=Steel\n2.\n",
+    {abaqus_plate + "*Include, input=more.inp\n", {"line 15", "more.inp"}},
+    {abaqus_square + "*Material, name=Steel\n*Elastic\n210000., 0.3\n"
+                     "*Shell Section, elset=Plate, material=Steel\n2.\n",
      {"*MATERIAL", "STEEL has no *DENSITY"}},
-    {plate + "*Boundary\n1, 1\n*Step\n*Boundary, op=NEW\n2, 1\n*End Step\n",
+    {abaqus_plate + "*Boundary\n1, 1\n*Step\n*Boundary, op=NEW\n2, 1\n*End Step\n",
      {"line 18", "OP = NEW"}},
-    {plate + "*Surface, name=S\n17, SPOS\n", {"line 16", "no element 17"}},
-    {plate + "*Surface, name=S\n1, S3\n", {"line 16", "SPOS or SNEG"}},
-    {plate + "*Node, system=C\n5, 1.\n", {"*NODE", "SYSTEM"}},
-    {plate + "*Node\n1, 1.\n", {"line 16", "node 1", "twice"}},
-    {plate + "*Node\n5, a\n", {"line 16", "\"A\" is no number"}},
-    {plate + "*Node\n0, 1.\n", {"\"0\" is no number of a node"}},
-    {plate + "*Element, type=S4\n5, 1, 2, 3\n", {"line 16", "4 nodes"}},
-    {plate + "*Element, type=S4\n1, 1, 2, 3, 4\n", {"element 1", "twice"}},
-    {plate + "*Element, type=S9R5\n", {"S9R5", "not known"}},
-    {plate + "*Element, type=S4\n5, 1, 2, 3,\n", {"ends with a comma"}},
-    {plate + "*Element, type=B31, elset=Plate\n5, 1, 2\n", {"PLATE", "shells and beams"}},
-    {plate + "*Nset, nset=N\nAbsent\n", {"line 16", "no set \"ABSENT\""}},
-    {plate + "*Nset, nset=N, generate\n5, 1\n", {"line 16", "no range"}},
-    {plate + "*Boundary\nAbsent, 1\n", {"no node set \"ABSENT\""}},
-    {plate + "*Boundary\n1, 1, 1, 0.5\n", {"line 16", "prescribes"}},
-    {plate + "*Boundary\n1, 5, 9\n", {"no components"}},
-    {plate + "*Boundary, type=velocity\n1, 1\n", {"*BOUNDARY", "TYPE"}},
-    {plate + "*Shell Section, elset=Plate, material=Steel\n2.\n", {"element 1 has two sections"}},
-    {square + steel + "*Shell Section, elset=Plate, material=Steel, composite\n2.\n",
+    {abaqus_plate + "*Surface, name=S\n17, SPOS\n", {"line 16", "no element 17"}},
+    {abaqus_plate + "*Surface, name=S\n1, S3\n", {"line 16", "SPOS or SNEG"}},
+    {abaqus_plate + "*Node, system=C\n5, 1.\n", {"*NODE", "SYSTEM"}},
+    {abaqus_plate + "*Node\n1, 1.\n", {"line 16", "node 1", "twice"}},
+    {abaqus_plate + "*Node\n5, a\n", {"line 16", "\"A\" is no number"}},
+    {abaqus_plate + "*Node\n0, 1.\n", {"\"0\" is no number of a node"}},
+    {abaqus_plate + "*Element, type=S4\n5, 1, 2, 3\n", {"line 16", "4 nodes"}},
+    {abaqus_plate + "*Element, type=S4\n1, 1, 2, 3, 4\n", {"element 1", "twice"}},
+    {abaqus_plate + "*Element, type=S9R5\n", {"S9R5", "not known"}},
+    {abaqus_plate + "*Element, type=S4\n5, 1, 2, 3,\n", {"ends with a comma"}},
+    {abaqus_plate + "*Element, type=B31, elset=Plate\n5, 1, 2\n", {"PLATE", "shells and beams"}},
+    {abaqus_plate + "*Nset, nset=N\nAbsent\n", {"line 16", "no set \"ABSENT\""}},
+    {abaqus_plate + "*Nset, nset=N, generate\n5, 1\n", {"line 16", "no range"}},
+    {abaqus_plate + "*Boundary\nAbsent, 1\n", {"no node set \"ABSENT\""}},
+    {abaqus_plate + "*Boundary\n1, 1, 1, 0.5\n", {"line 16", "prescribes"}},
+    {abaqus_plate + "*Boundary\n1, 5, 9\n", {"no components"}},
+    {abaqus_plate + "*Boundary, type=velocity\n1, 1\n", {"*BOUNDARY", "TYPE"}},
+    {abaqus_plate + "*Shell Section, elset=Plate, material=Steel\n2.\n",
+     {"element 1 has two sections"}},
+    {abaqus_square + abaqus_steel + "*Shell Section, elset=Plate, material=Steel, composite\n2.\n",
      {"*SHELL SECTION", "COMPOSITE"}},
-    {square + steel + "*Shell Section, elset=Absent, material=Steel\n2.\n", {"\"ABSENT\""}},
-    {plate + "*Material, name=B\n*Density\n1.,\n", {"*MATERIAL", "no *ELASTIC"}},
-    {plate + "*Material, name=B\n*Elastic, type=LAMINA\n1., .3\n", {"*ELASTIC", "ISOTROPIC"}},
-    {plate + "*Material, name=B\n*Elastic\n1., .3\n2., .3, 100.\n", {"*ELASTIC", "one data line"}},
-    {plate + "*Material, name=B\n*Elastic\n1., .3\n*Plastic\n1., 0.\n", {"*PLASTIC", "not known"}},
-    {plate + "*Nset, nset=Ref\n1\n*Surface, type=NODE, name=S\n2\n"
-             "*Coupling, constraint name=C, ref node=Ref, surface=S\n*Distributing\n",
+    {abaqus_square + abaqus_steel + "*Shell Section, elset=Absent, material=Steel\n2.\n",
+     {"\"ABSENT\""}},
+    {abaqus_plate + "*Material, name=B\n*Density\n1.,\n", {"*MATERIAL", "no *ELASTIC"}},
+    {abaqus_plate + "*Material, name=B\n*Elastic, type=LAMINA\n1., .3\n",
+     {"*ELASTIC", "ISOTROPIC"}},
+    {abaqus_plate + "*Material, name=B\n*Elastic\n1., .3\n2., .3, 100.\n",
+     {"*ELASTIC", "one data line"}},
+    {abaqus_plate + "*Material, name=B\n*Elastic\n1., .3\n*Plastic\n1., 0.\n",
+     {"*PLASTIC", "not known"}},
+    {abaqus_plate + "*Nset, nset=Ref\n1\n*Surface, type=NODE, name=S\n2\n"
+                    "*Coupling, constraint name=C, ref node=Ref, surface=S\n*Distributing\n",
      {"*COUPLING", "node 1 belongs to an element"}},
-    {plate + "*Element, type=B31, elset=Rib\n7, 1, 2\n"
-             "*Beam Section, elset=Rib, material=Steel, section=L\n4., 2., 1., 1.\n",
+    {abaqus_plate + "*Element, type=B31, elset=Rib\n7, 1, 2\n"
+                    "*Beam Section, elset=Rib, material=Steel, section=L\n4., 2., 1., 1.\n",
      {"*BEAM SECTION", "the profile L"}},
     {"1, 2\n*Node\n", {"line 1", "before the first keyword"}}};
 
-INSTANTIATE_TEST_SUITE_P(Abaqus, RefusedKeyword, ::testing::ValuesIn(refusals));
+INSTANTIATE_TEST_SUITE_P(Abaqus, RefusedKeyword, ::testing::ValuesIn(refused_keywords));
 
 }  // namespace
 }  // namespace chladni::mesh

@@ -10,7 +10,7 @@ namespace chladni::mesh {
 namespace {
 
 /// 2 x 1 m of elements of 0.5 m.
-Mesh plate(Pattern pattern, int order)
+Mesh plate_of(Pattern pattern, int order)
 {
   return rectangle({.length = 2.0,
                     .width = 1.0,
@@ -22,7 +22,7 @@ Mesh plate(Pattern pattern, int order)
 TEST(LatticeCells, OfAQuadrilateralAreAsManyAsItsIntervals)
 {
   for (const int p : {1, 2, 3, 4}) {
-    const Mesh mesh = plate(Pattern::structured, p);
+    const Mesh mesh = plate_of(Pattern::structured, p);
     EXPECT_EQ(lattice_cells(mesh.blocks.at(0), 1).size(), std::size_t(p) * p);
     EXPECT_EQ(lattice_cells(mesh.blocks.at(0), p).size(), 1u);
   }
@@ -31,7 +31,7 @@ TEST(LatticeCells, OfAQuadrilateralAreAsManyAsItsIntervals)
 TEST(LatticeCells, OfATriangleCoverEachPlaceAndRepeatTheirLastCorner)
 {
   for (const int p : {1, 2, 3}) {
-    const Mesh mesh = plate(Pattern::triangles, p);
+    const Mesh mesh = plate_of(Pattern::triangles, p);
     const ElementBlock& block = mesh.blocks.at(0);
     ASSERT_EQ(block.shape, Shape::triangle);
     const auto cells = lattice_cells(block, 1);
@@ -48,7 +48,7 @@ TEST(LatticeCells, OfATriangleCoverEachPlaceAndRepeatTheirLastCorner)
 TEST(EdgesIn, AGroupAreThoseWithAllTheirNodesInIt)
 {
   for (const int p : {1, 2, 3}) {
-    const Mesh mesh = plate(Pattern::structured, p);
+    const Mesh mesh = plate_of(Pattern::structured, p);
     const auto edges = edges_in(mesh, find_group(mesh, "bottom"));
     EXPECT_EQ(edges.size(), 4u);
     for (const auto& edge : edges) {

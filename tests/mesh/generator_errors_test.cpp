@@ -15,7 +15,7 @@ namespace {
 using testing::hat_options;
 using testing::radius;
 
-std::string error_of(const auto& generate)
+std::string error_of_generator(const auto& generate)
 {
   try {
     generate();
@@ -30,7 +30,7 @@ std::string hat_error(const std::function<void(HatDiscOptions&)>& change)
 {
   HatDiscOptions options = hat_options(Pattern::structured, 2);
   change(options);
-  return error_of([&] { hat_disc(options); });
+  return error_of_generator([&] { hat_disc(options); });
 }
 
 TEST(HatDisc, NamesTheLengthsThatDoNotFit)
@@ -53,7 +53,7 @@ TEST(HatDisc, NamesTheLengthsThatDoNotFit)
 TEST(Pad, NamesTheLengthsThatDoNotFit)
 {
   const auto error = [](double outer_radius, double angle, double size) {
-    return error_of([&] {
+    return error_of_generator([&] {
       pad({.inner_radius = 0.1,
            .outer_radius = outer_radius,
            .angle = angle,
@@ -69,7 +69,7 @@ TEST(Rings, AskForZWhereTheHatStandsAboveTheirCircle)
 {
   Mesh mesh = hat_disc(hat_options(Pattern::structured, 1));
   const auto ring = [&](std::optional<double> z) {
-    return error_of([&] {
+    return error_of_generator([&] {
       Mesh copy = mesh;
       const RingOptions options{.name = "seat", .radius = 0.08, .nodes = 12, .z = z};
       add_rings(copy, std::span(&options, 1));
@@ -108,7 +108,7 @@ TEST(Rings, SayHowManyOfTheirNodesAreThere)
 {
   const RingOptions ring{.name = "seat", .radius = 1.0, .nodes = 8};
   Mesh mesh = circle_with_a_node_off(0.01);
-  const std::string error = error_of([&] { add_rings(mesh, std::span(&ring, 1)); });
+  const std::string error = error_of_generator([&] { add_rings(mesh, std::span(&ring, 1)); });
   EXPECT_NE(error.find("7 of its 8 nodes are there"), std::string::npos) << error;
   EXPECT_NE(error.find("angle 90 degrees"), std::string::npos) << error;
 }
@@ -128,19 +128,20 @@ TEST(Mesher, ThatGivesNoAnswerIsASentence)
     rectangle({.length = 1.0, .width = 1.0, .element_size = 0.5, .pattern = Pattern::triangles});
   };
   const OtherMesher crashing("/bin/false");
-  const std::string error = error_of(triangles);
+  const std::string error = error_of_generator(triangles);
   EXPECT_NE(error.find("Gmsh crashed on the mesh that [mesh] describes (exit code 1)"),
             std::string::npos)
       << error;
   // Rows and columns need none.
-  EXPECT_EQ(error_of([] { rectangle({.length = 1.0, .width = 1.0, .element_size = 0.5}); }),
-            "no error");
+  EXPECT_EQ(
+      error_of_generator([] { rectangle({.length = 1.0, .width = 1.0, .element_size = 0.5}); }),
+      "no error");
 }
 
 TEST(Mesher, ThatIsNotThereIsAnError)
 {
   const OtherMesher missing("/no/such/mesher");
-  const std::string error = error_of([] {
+  const std::string error = error_of_generator([] {
     rectangle({.length = 1.0, .width = 1.0, .element_size = 0.5, .pattern = Pattern::triangles});
   });
   EXPECT_NE(error.find("CHLADNI_MESHER names /no/such/mesher"), std::string::npos) << error;

@@ -31,7 +31,7 @@ TEST(GradedSizes, NeedNoPlacesThatOthersImply)
 
 /// A square of 2 x 2 in the unit of its file, with elements of 0.4 or, on its right side, as it
 /// says.
-std::string square(const std::string& right)
+std::string square_geometry(const std::string& right)
 {
   return "Point(1) = {0, 0, 0, 0.4}; Point(2) = {2, 0, 0, " + right + "}; Point(3) = {2, 2, 0, " +
          right +
@@ -56,7 +56,7 @@ TEST_F(MeshFile, HasSmallElementsWhereThatIsAsked)
 {
   // In millimetres: Gmsh meshes in the units of the file, whose own sizes its factor scales.
   MeshOptions options{
-      .file = write("a.geo", square("0.4")), .element_order = 1, .length_unit = 1e-3};
+      .file = write("a.geo", square_geometry("0.4")), .element_order = 1, .length_unit = 1e-3};
   const int n_everywhere = generate(options).blocks.at(0).n_elements();
   options.sizes = {{.x = {0, 0, 0}, .size = 0.02e-3}};
   for (const double factor : {1.0, 2.0}) {
@@ -86,7 +86,7 @@ TEST_F(MeshFile, OfAStepHasSmallElementsWhereThatIsAsked)
 
 TEST_F(MeshFile, KeepsItsOwnSmallElementsBesideThoseThatAreAsked)
 {
-  MeshOptions options{.file = write("a.geo", square("0.05")), .element_order = 1};
+  MeshOptions options{.file = write("a.geo", square_geometry("0.05")), .element_order = 1};
   const int n_right = elements_at(generate(options), {2, 1, 0}, 0.2);
   options.sizes = {{.x = {0, 0, 0}, .size = 0.1}};
   EXPECT_GE(elements_at(generate(options), {2, 1, 0}, 0.2), 0.8 * n_right);

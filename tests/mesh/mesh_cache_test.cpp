@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string square_geo =
+const std::string cached_square_geo =
     "Point(1) = {0, 0, 0, 0.5}; Point(2) = {1, 0, 0, 0.5}; Point(3) = {1, 1, 0, 0.5};\n"
     "Point(4) = {0, 1, 0, 0.5};\n"
     "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
@@ -111,10 +111,11 @@ TEST_F(MeshCache, FindsNoMeshOfOtherOptions)
 
 TEST_F(MeshCache, FindsNoMeshOfAChangedFile)
 {
-  MeshOptions options{.file = write("a.geo", square_geo), .element_order = 1, .cache = folder()};
+  MeshOptions options{
+      .file = write("a.geo", cached_square_geo), .element_order = 1, .cache = folder()};
   EXPECT_TRUE(made(options).second);
   EXPECT_FALSE(made(options).second);
-  write("a.geo", square_geo + "// another\n");
+  write("a.geo", cached_square_geo + "// another\n");
   EXPECT_TRUE(made(options).second);
   options.element_order = 2;
   EXPECT_TRUE(made(options).second);
@@ -123,7 +124,7 @@ TEST_F(MeshCache, FindsNoMeshOfAChangedFile)
 TEST_F(MeshCache, KeepsNothingThatOtherFilesDecideOn)
 {
   write("b.geo", "lc = 0.5;\n");
-  MeshOptions options{.file = write("a.geo", "Include \"b.geo\";\n" + square_geo),
+  MeshOptions options{.file = write("a.geo", "Include \"b.geo\";\n" + cached_square_geo),
                       .element_order = 1,
                       .trust = Trust::owner};
   options.cache = folder();
@@ -133,7 +134,8 @@ TEST_F(MeshCache, KeepsNothingThatOtherFilesDecideOn)
                           {"a.geo", "is not kept"});
   }
   options.trust = Trust::stranger;
-  options.file = write("c.geo", square_geo + "Field[1] = Structured; Field[1].FileName = \"b\";\n");
+  options.file =
+      write("c.geo", cached_square_geo + "Field[1] = Structured; Field[1].FileName = \"b\";\n");
   testing::expect_words(kept_mesh(options, [] { return Mesh{}; }).notes.back(), {"is not kept"});
   EXPECT_TRUE(files().empty());
 }

@@ -17,33 +17,34 @@ using testing::expect_words;
 using testing::MeshFile;
 using testing::Refusal;
 
-Deck deck_of(const std::string& text)
+Deck deck_of_nastran(const std::string& text)
 {
   return nastran_deck(nastran_cards(text));
 }
 
-Declarations declared_by(const std::string& text, double length_unit, double force_unit = 1.0)
+Declarations declared_by_nastran(const std::string& text, double length_unit,
+                                 double force_unit = 1.0)
 {
   const std::vector<Card> cards = nastran_cards(text);
   return nastran_declarations(cards, nastran_deck(cards),
                               {.length = length_unit, .force = force_unit});
 }
 
-std::string error_in(const std::string& text)
+std::string error_in_nastran(const std::string& text)
 {
   try {
-    declared_by(text, 1e-3);
+    declared_by_nastran(text, 1e-3);
   } catch (const Error& error) {
     return error.what();
   }
   return "no error";
 }
 
-const std::string four_nodes =
+const std::string four_grid_points =
     "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,1.,0.\nGRID,4,,0.,1.,0.\n";
-const std::string square = four_nodes + "CQUAD4,1,7,1,2,3,4\n";
-const std::string steel = "MAT1,9,2.1E5,,.3,7.85-9\n";
-const std::string plate = square + steel + "PSHELL,7,9,2.,9,,9\n";
+const std::string nastran_square = four_grid_points + "CQUAD4,1,7,1,2,3,4\n";
+const std::string nastran_steel = "MAT1,9,2.1E5,,.3,7.85-9\n";
+const std::string nastran_plate = nastran_square + nastran_steel + "PSHELL,7,9,2.,9,,9\n";
 
 TEST(NastranCards, HaveSmallLargeAndFreeFields)
 {
@@ -75,14 +76,15 @@ TEST(NastranCards, HaveSmallLargeAndFreeFields)
 
 TEST(NastranDeck, HasTheNodesOfARangeThatAreThere)
 {
-  const Deck deck = deck_of(four_nodes + "SET1,5,4,1,THRU,3,1,THRU,2147483647\n,BY,3\n");
+  const Deck deck =
+      deck_of_nastran(four_grid_points + "SET1,5,4,1,THRU,3,1,THRU,2147483647\n,BY,3\n");
   EXPECT_EQ(deck.groups.at(0).nodes, (std::vector<std::int64_t>{4, 1, 2, 3, 1, 4}));
 }
 
 TEST(NastranDeck, PlacesNodesByCoordinateSystemsThatReferToEachOther)
 {
   // 2 is turned by 90 degrees about z and stands at (10, 0, 0); 1 is cylindrical in it.
-  const Deck deck = deck_of(
+  const Deck deck = deck_of_nastran(
       "CORD2C,1,2,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
       "CORD2R,2,,10.,0.,0.,10.,0.,1.\n,10.,1.,0.\n"
       "GRID,1,1,3.,90.,5.\nGRID,2,2,3.,0.,0.\n");
@@ -99,8 +101,9 @@ TEST(NastranDeck, PlacesNodesByCoordinateSystemsThatReferToEachOther)
 TEST(NastranDeck, NamesItsGroupsByPropertiesSetsAndConstraints)
 {
   const Mesh mesh = mesh_of(
-      deck_of(square + "CTRIA3,2,8,1,2,3\nCBAR,3,5,1,2,0.,0.,1.\nSPC1,6,123,1,THRU,2\n"
-                       "SPC,6,3,3,0.\nSET1,4,4\nRBE2,20,9,123456,2,3\nGRID,9,,0.,0.,0.,,12\n"),
+      deck_of_nastran(nastran_square +
+                      "CTRIA3,2,8,1,2,3\nCBAR,3,5,1,2,0.,0.,1.\nSPC1,6,123,1,THRU,2\n"
+                      "SPC,6,3,3,0.\nSET1,4,4\nRBE2,20,9,123456,2,3\nGRID,9,,0.,0.,0.,,12\n"),
       {.line_groups = {"pbar_5"}});
   EXPECT_EQ(find_group(mesh, "pshell_7").nodes, (std::vector<int>{0, 1, 2, 3}));
   EXPECT_EQ(find_group(mesh, "pshell_8").dimension, 2);
@@ -153,7 +156,7 @@ TEST(NastranCards, AreThoseOfIncludedFiles)
 
 TEST(NastranDeck, HasTheDefaultsOfGrdset)
 {
-  const Deck deck = deck_of(
+  const Deck deck = deck_of_nastran(
       "CORD2R,3,,5.,0.,0.,5.,0.,1.\n,6.,0.,0.\nGRDSET,,3,,,,,126\nGRID,1,,1.,0.,0.\n"
       "GRID,2,0,1.,0.,0.,,0\n");
   EXPECT_DOUBLE_EQ(deck.nodes.at(1)[0], 6.0);
@@ -165,7 +168,7 @@ TEST(NastranDeck, HasTheDefaultsOfGrdset)
 
 TEST(NastranDeck, PlacesNodesBySphericalSystems)
 {
-  const Deck deck = deck_of(
+  const Deck deck = deck_of_nastran(
       "CORD2S,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,1,5,2.,90.,90.\n"
       "GRID,2,5,2.,60.,0.\n");
   const auto &across = deck.nodes.at(1), &up = deck.nodes.at(2);
@@ -179,11 +182,11 @@ TEST(NastranDeck, PlacesNodesBySphericalSystems)
 /// Two elements with the edge 2-3 in common; a card may leave out any of its middle nodes.
 TEST(NastranDeck, HasMissingMiddleNodesOnStraightEdges)
 {
-  const Mesh mesh =
-      mesh_of(deck_of(four_nodes + "GRID,5,,4.,0.,0.\nGRID,6,,4.,1.,0.\nGRID,7,,2.,.5,.1\n"
-                                   "CQUAD8,1,7,1,2,3,4,,\n,,\nCQUAD8,2,7,2,5,6,3,,\n,,7\n"
-                                   "CTRIA6,3,7,1,2,5\nSET1,4,1,2\nSET1,5,1,4\n"),
-              {});
+  const Mesh mesh = mesh_of(
+      deck_of_nastran(four_grid_points + "GRID,5,,4.,0.,0.\nGRID,6,,4.,1.,0.\nGRID,7,,2.,.5,.1\n"
+                                         "CQUAD8,1,7,1,2,3,4,,\n,,\nCQUAD8,2,7,2,5,6,3,,\n,,7\n"
+                                         "CTRIA6,3,7,1,2,5\nSET1,4,1,2\nSET1,5,1,4\n"),
+      {});
   const ElementBlock& quads = mesh.blocks.at(0);
   const auto at = [&](int element, int place) {
     return mesh.positions[std::size_t(quads.element_nodes(element)[std::size_t(place)])];
@@ -201,7 +204,7 @@ TEST(NastranDeck, HasMissingMiddleNodesOnStraightEdges)
 
 TEST(NastranDeck, RefusesElementsOfTheSameNodesUnlessAsked)
 {
-  const Deck deck = deck_of(square + "CQUAD4,2,8,2,3,4,1\nCQUAD4,3,7,1,2,3,4\n");
+  const Deck deck = deck_of_nastran(nastran_square + "CQUAD4,2,8,2,3,4,1\nCQUAD4,3,7,1,2,3,4\n");
   const auto n_elements = [&](Doubled doubled) {
     return mesh_of(deck, {.doubled_elements = doubled}).blocks.at(0).n_elements();
   };
@@ -218,18 +221,18 @@ TEST(NastranDeck, RefusesElementsOfTheSameNodesUnlessAsked)
 /// Each kind of element has numbers of its own.
 TEST(NastranDeck, LetsARigidElementHaveTheNumberOfAShell)
 {
-  const Deck deck = deck_of(square +
-                            "GRID,9,,1.,.5,0.\nRBE2,1,9,123456,1,2\nCONM2,1,9,,1.\n"
-                            "CELAS2,1,5.,1,3\n");
+  const Deck deck = deck_of_nastran(nastran_square +
+                                    "GRID,9,,1.,.5,0.\nRBE2,1,9,123456,1,2\nCONM2,1,9,,1.\n"
+                                    "CELAS2,1,5.,1,3\n");
   EXPECT_EQ(deck.couplings.size(), 1U);
 }
 
 TEST(NastranDeck, HasItsFlatQuadrilateralsSplitAsThoseOfOtherFiles)
 {
-  const Mesh mesh =
-      mesh_of(deck_of("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,2.,.02,0.\nGRID,4,,1.,1.,0.\n"
+  const Mesh mesh = mesh_of(
+      deck_of_nastran("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,2.,.02,0.\nGRID,4,,1.,1.,0.\n"
                       "CQUAD4,1,7,1,2,3,4\n"),
-              {});
+      {});
   ASSERT_EQ(mesh.blocks.size(), 1U);
   EXPECT_EQ(mesh.blocks[0].shape, Shape::triangle);
   EXPECT_EQ(mesh.blocks[0].n_elements(), 2);
@@ -243,7 +246,7 @@ class NastranFile : public MeshFile {};
 TEST_F(NastranFile, IsReadInItsUnitByAProcessOfItsOwn)
 {
   const std::string curved =
-      four_nodes +
+      four_grid_points +
       "GRID,5,,1.,0.,0.\nGRID,6,,2.,.5,0.\nGRID,7,,1.,1.,0.\nGRID,8,,0.,.5,0.\nGRID,9,,1.,.5,0.\n";
   const std::vector<std::string> elements{
       "CQUAD4,1,7,1,2,3,4\n", "CTRIA3,1,7,1,2,3\nCTRIA3,2,7,1,3,4\n",
@@ -254,16 +257,16 @@ TEST_F(NastranFile, IsReadInItsUnitByAProcessOfItsOwn)
     EXPECT_NEAR(area(mesh), 2e-6, 1e-18) << of_kind;
   }
   const Declarations declared =
-      declarations({.file = write("b.bdf", plate)}, {.length = 1e-3, .force = 1.0});
+      declarations({.file = write("b.bdf", nastran_plate)}, {.length = 1e-3, .force = 1.0});
   EXPECT_EQ(declared.shells.size(), 1U);
   EXPECT_EQ(declared.materials.size(), 1U);
 }
 
 TEST_F(NastranFile, ErrorsNameFileLineAndCard)
 {
-  const std::string file = write("a.bdf", square + "CHEXA,2,7,1,2,3,4,5,6\n");
+  const std::string file = write("a.bdf", nastran_square + "CHEXA,2,7,1,2,3,4,5,6\n");
   expect_words(error_of({.file = file}), {"a.bdf", "line 6", "CHEXA 2", "mid-surface"});
-  expect_words(error_of({.file = write("b.bdf", square + "CQUAD4,2,7,1,2,3,44\n")}),
+  expect_words(error_of({.file = write("b.bdf", nastran_square + "CQUAD4,2,7,1,2,3,44\n")}),
                {"b.bdf", "element 2", "node 44"});
   expect_words(error_of({.file = path("absent.bdf")}), {"absent.bdf", "does not exist"});
   expect_words(error_of({.file = write("c.bdf", "")}), {"c.bdf", "neither shell elements"});
@@ -272,10 +275,10 @@ TEST_F(NastranFile, ErrorsNameFileLineAndCard)
 TEST(NastranDeclarations, AreInSI)
 {
   const Declarations in_mm =
-      declared_by(plate +
-                      "CBAR,30,40,1,2,0.,3.,0.\nPBAR,40,9,100.,833.,900.,1400.\n"
-                      "CBEAM,31,41,1,2,0.,0.,1.\nPBEAM,41,9,100.,833.,900.,,1400.\n",
-                  1e-3);
+      declared_by_nastran(nastran_plate +
+                              "CBAR,30,40,1,2,0.,3.,0.\nPBAR,40,9,100.,833.,900.,1400.\n"
+                              "CBEAM,31,41,1,2,0.,0.,1.\nPBEAM,41,9,100.,833.,900.,,1400.\n",
+                          1e-3);
   ASSERT_EQ(in_mm.materials.size(), 1U);
   EXPECT_NEAR(in_mm.materials[0].young, 2.1e11, 1.0);
   EXPECT_NEAR(in_mm.materials[0].density, 7850.0, 1e-9);
@@ -288,16 +291,16 @@ TEST(NastranDeclarations, AreInSI)
   EXPECT_EQ(bar.orientation, (std::array<double, 3>{0.0, 1.0, 0.0}));
   EXPECT_EQ(in_mm.beams.at(1).shear_factor_z, 1.0);
   // Steel in inches, lbf and seconds.
-  const Declarations in_inches =
-      declared_by(square + "MAT1,9,3.0E7,,.3,7.33E-4\nPSHELL,7,9,.1,9,,9\n", 0.0254, 4.4482216);
+  const Declarations in_inches = declared_by_nastran(
+      nastran_square + "MAT1,9,3.0E7,,.3,7.33E-4\nPSHELL,7,9,.1,9,,9\n", 0.0254, 4.4482216);
   EXPECT_NEAR(in_inches.materials[0].young, 206.8e9, 0.1e9);
   EXPECT_NEAR(in_inches.materials[0].density, 7833.0, 2.0);
 }
 
 TEST(NastranDeclarations, HoldTheReferenceNodeOfAnRbe2ByItsCoupling)
 {
-  const Declarations declared =
-      declared_by(plate + "GRID,9,,1.,.5,0.\nRBE2,20,9,123456,1,2\nSPC1,6,123456,9,3\n", 1e-3);
+  const Declarations declared = declared_by_nastran(
+      nastran_plate + "GRID,9,,1.,.5,0.\nRBE2,20,9,123456,1,2\nSPC1,6,123456,9,3\n", 1e-3);
   ASSERT_EQ(declared.couplings.size(), 1U);
   EXPECT_EQ(declared.couplings[0].name, "node_9");
   EXPECT_EQ(declared.couplings[0].group, "rbe2_20");
@@ -312,8 +315,8 @@ TEST(NastranDeclarations, HoldTheReferenceNodeOfAnRbe2ByItsCoupling)
 /// What a rigid element hangs at: a node of the mesh, the reference of another, one that follows.
 TEST(NastranDeclarations, LinkRigidElementsToNodesThatOthersHave)
 {
-  const Declarations declared = declared_by(
-      plate +
+  const Declarations declared = declared_by_nastran(
+      nastran_plate +
           "GRID,9,,1.,.5,0.\nGRID,10,,5.,.5,0.\nGRID,11,,6.,.5,0.\nGRID,12,,0.,1.,0.\n"
           "RBE2,20,9,123456,1,10\nRBE2,21,9,123456,2\nRBAR,22,10,11,123456\nRBE2,23,3,123456,4\n"
           "CONM2,30,11,,2.-3\n",
@@ -335,9 +338,9 @@ TEST(NastranDeclarations, LinkRigidElementsToNodesThatOthersHave)
 TEST(NastranDeclarations, HaveSixEquationsOfTwoTermsAsALink)
 {
   std::string deck =
-      "MPC = 4\nCEND\nBEGIN BULK\n" + plate + "GRID,12,,0.,1.,0.\nMPC,5,1,1,1.,2,1,1.\n";
+      "MPC = 4\nCEND\nBEGIN BULK\n" + nastran_plate + "GRID,12,,0.,1.,0.\nMPC,5,1,1,1.,2,1,1.\n";
   for (int c = 1; c <= 6; ++c) deck += fmt::format("MPC,4,12,{0},2.,4,{0},-2.\n", c);
-  const Declarations declared = declared_by(deck, 1e-3);
+  const Declarations declared = declared_by_nastran(deck, 1e-3);
   ASSERT_EQ(declared.couplings.size(), 1U);
   EXPECT_EQ(declared.couplings[0].group, "mpc_4_12");
   EXPECT_EQ(declared.couplings[0].to, "leader_4");
@@ -348,27 +351,28 @@ TEST(NastranDeclarations, HaveSixEquationsOfTwoTermsAsALink)
 TEST(NastranDeclarations, HoldTheSetsThatCaseControlChooses)
 {
   const std::string sets =
-      "BEGIN BULK\n" + plate + "SPC1,1,123,1\nSPC1,2,456,2\nSPC1,3,1,3\nSPCADD,77,1,2\n";
+      "BEGIN BULK\n" + nastran_plate + "SPC1,1,123,1\nSPC1,2,456,2\nSPC1,3,1,3\nSPCADD,77,1,2\n";
   const auto groups = [](const Declarations& declared) {
     std::vector<std::string> names;
     for (const DeclaredSupport& support : declared.supports) names.push_back(support.group);
     return names;
   };
-  const Declarations one = declared_by("CEND\nspc = 3 $ the third\n" + sets, 1e-3);
+  const Declarations one = declared_by_nastran("CEND\nspc = 3 $ the third\n" + sets, 1e-3);
   EXPECT_EQ(groups(one), (std::vector<std::string>{"spc_3_1"}));
   EXPECT_NE(one.notes.at(0).find("SPC of the set 1, 2 are left out"), std::string::npos)
       << one.notes[0];
-  const Declarations joined = declared_by("SPC=77\nCEND\n" + sets, 1e-3);
+  const Declarations joined = declared_by_nastran("SPC=77\nCEND\n" + sets, 1e-3);
   EXPECT_EQ(groups(joined), (std::vector<std::string>{"spc_1_123", "spc_2_456"}));
-  const Declarations unchosen = declared_by("CEND\nBEGIN BULK\n" + plate + "SPC1,6,123,1\n", 1e-3);
+  const Declarations unchosen =
+      declared_by_nastran("CEND\nBEGIN BULK\n" + nastran_plate + "SPC1,6,123,1\n", 1e-3);
   EXPECT_EQ(unchosen.supports.size(), 1U);
   EXPECT_NE(unchosen.notes.at(0).find("chooses no SPC"), std::string::npos);
 }
 
 TEST(NastranDeclarations, PassOverHeldNodesOfNoElement)
 {
-  const Declarations declared =
-      declared_by(plate + "GRID,9,,1.,1.,0.\nSPC1,6,3,1,9\nGRID,10,,1.,1.,0.,,123\n", 1e-3);
+  const Declarations declared = declared_by_nastran(
+      nastran_plate + "GRID,9,,1.,1.,0.\nSPC1,6,3,1,9\nGRID,10,,1.,1.,0.,,123\n", 1e-3);
   ASSERT_EQ(declared.supports.size(), 1U);
   EXPECT_EQ(declared.supports[0].group, "spc_6_3");
   EXPECT_NE(declared.notes.at(0).find("node 9, are passed over"), std::string::npos)
@@ -377,32 +381,34 @@ TEST(NastranDeclarations, PassOverHeldNodesOfNoElement)
 
 TEST(NastranDeclarations, TakeAShearModulusOfTwoDigits)
 {
-  const Declarations declared = declared_by(square +
-                                                "MAT1,9,2.07E5,80.+3,.29,7.82-9\n"
-                                                "PSHELL,7,9,2.,9,,9\n",
-                                            1e-3);
+  const Declarations declared = declared_by_nastran(nastran_square +
+                                                        "MAT1,9,2.07E5,80.+3,.29,7.82-9\n"
+                                                        "PSHELL,7,9,2.,9,,9\n",
+                                                    1e-3);
   EXPECT_NEAR(declared.materials.at(0).poisson, 0.29, 1e-15);
   EXPECT_NE(declared.notes.at(0).find("two digits"), std::string::npos);
 }
 
 TEST(NastranDeclarations, HaveBarsRigidInShearWhereTheirFactorsAreZero)
 {
-  const std::string bar = plate + "CBAR,30,40,1,2,0.,3.,0.\nPBAR,40,9,100.,833.,900.,1400.\n";
-  EXPECT_FALSE(declared_by(bar + ",\n,0.,0.\n", 1e-3).beams.at(0).shear_factor_y);
-  const DeclaredBeam sheared = declared_by(bar + ",\n,.8,.9\n", 1e-3).beams.at(0);
+  const std::string bar =
+      nastran_plate + "CBAR,30,40,1,2,0.,3.,0.\nPBAR,40,9,100.,833.,900.,1400.\n";
+  EXPECT_FALSE(declared_by_nastran(bar + ",\n,0.,0.\n", 1e-3).beams.at(0).shear_factor_y);
+  const DeclaredBeam sheared = declared_by_nastran(bar + ",\n,.8,.9\n", 1e-3).beams.at(0);
   EXPECT_EQ(sheared.shear_factor_z, 0.8);
   EXPECT_EQ(sheared.shear_factor_y, 0.9);
-  EXPECT_FALSE(declared_by(plate + "CBEAM,31,41,1,2,0.,0.,1.\nPBEAM,41,9,100.,833.,900.,,1400.\n"
+  EXPECT_FALSE(declared_by_nastran(
+                   nastran_plate + "CBEAM,31,41,1,2,0.,0.,1.\nPBEAM,41,9,100.,833.,900.,,1400.\n"
                                    ",\n,0.,0.\n",
-                           1e-3)
+                   1e-3)
                    .beams.at(0)
                    .shear_factor_y);
 }
 
 TEST(NastranDeclarations, HaveMassesAndSprings)
 {
-  const Declarations declared = declared_by(
-      plate +
+  const Declarations declared = declared_by_nastran(
+      nastran_plate +
           "GRID,9,,1.,.5,0.\nRBE2,20,9,123456,1,2\n"
           "CONM2,30,9,,2.-3,1.,0.,5.\n,8.,1.,9.,2.,3.,10.\nCONM2,31,3,-1,1.-3,2.,1.,4.\n"
           "PELAS,40,50.,,,41,70.\nCELAS1,32,41,3,5\nCELAS2,33,100.,1,3,9,3\nCELAS2,34,5.,,,4,1\n",
@@ -430,8 +436,8 @@ TEST(NastranDeclarations, HaveMassesAndSprings)
 TEST(NastranDeclarations, HaveBarsByTheirShapes)
 {
   const std::string bars =
-      plate + "CBAR,3,5,1,2,0.,3.,0.\nCBAR,4,6,1,2,0.,0.,1.\nCBAR,6,8,2,3,0.,0.,1.\n";
-  const Declarations declared = declared_by(
+      nastran_plate + "CBAR,3,5,1,2,0.,3.,0.\nCBAR,4,6,1,2,0.,0.,1.\nCBAR,6,8,2,3,0.,0.,1.\n";
+  const Declarations declared = declared_by_nastran(
       bars + "PBARL,5,9,,BAR\n,2.,6.\nPBARL,6,9,,ROD\n,2.\nPBARL,8,9,,TUBE\n,3.,2.\n", 1e-3);
   ASSERT_EQ(declared.beams.size(), 3U);
   const DeclaredBeam &bar = declared.beams[0], &rod = declared.beams[1], &tube = declared.beams[2];
@@ -450,67 +456,71 @@ class RefusedCard : public ::testing::TestWithParam<Refusal> {};
 
 TEST_P(RefusedCard, IsNamedWithItsLine)
 {
-  expect_refused(GetParam(), error_in(GetParam().text));
+  expect_refused(GetParam(), error_in_nastran(GetParam().text));
 }
 
-const std::vector<Refusal> refusals{
-    {plate + "CGAP,5,100,1,2\n", {"line 8", "CGAP 5", "not known"}},
-    {plate + "CONM2,5,1,3,.5\n", {"CONM2 5", "system CID"}},
-    {plate + "CONM2,5,9,,.5\n", {"CONM2 5", "no node 9"}},
-    {plate + "GRID,9,,0.,0.,0.\nCONM2,5,9,,.5\n", {"CONM2 5", "node 9", "no coupling"}},
-    {plate + "CELAS2,5,100.,1\n", {"CELAS2 5", "no component"}},
-    {plate + "CELAS2,5,100.,1,1,2,3\n", {"CELAS2 5", "two components"}},
-    {plate + "CELAS2,5,-100.,1,1\n", {"CELAS2 5", "negative"}},
-    {plate + "CELAS2,5,100.,1,1,,,.1\n", {"CELAS2 5", "GE"}},
-    {plate + "CELAS2,5,100.\n", {"CELAS2 5", "at no node"}},
-    {plate + "CELAS1,5,6,1,1\n", {"CELAS1 5", "no PELAS 6"}},
-    {plate + "CBAR,3,5,1,2,0.,0.,1.\nPBARL,5,9,,I\n,1.,1.,1.,1.,1.,1.\n",
+const std::vector<Refusal> refused_cards{
+    {nastran_plate + "CGAP,5,100,1,2\n", {"line 8", "CGAP 5", "not known"}},
+    {nastran_plate + "CONM2,5,1,3,.5\n", {"CONM2 5", "system CID"}},
+    {nastran_plate + "CONM2,5,9,,.5\n", {"CONM2 5", "no node 9"}},
+    {nastran_plate + "GRID,9,,0.,0.,0.\nCONM2,5,9,,.5\n", {"CONM2 5", "node 9", "no coupling"}},
+    {nastran_plate + "CELAS2,5,100.,1\n", {"CELAS2 5", "no component"}},
+    {nastran_plate + "CELAS2,5,100.,1,1,2,3\n", {"CELAS2 5", "two components"}},
+    {nastran_plate + "CELAS2,5,-100.,1,1\n", {"CELAS2 5", "negative"}},
+    {nastran_plate + "CELAS2,5,100.,1,1,,,.1\n", {"CELAS2 5", "GE"}},
+    {nastran_plate + "CELAS2,5,100.\n", {"CELAS2 5", "at no node"}},
+    {nastran_plate + "CELAS1,5,6,1,1\n", {"CELAS1 5", "no PELAS 6"}},
+    {nastran_plate + "CBAR,3,5,1,2,0.,0.,1.\nPBARL,5,9,,I\n,1.,1.,1.,1.,1.,1.\n",
      {"PBARL 5", "ROD, TUBE and BAR"}},
-    {plate + "CBAR,3,5,1,2,0.,0.,1.\nPBARL,5,9,,TUBE\n,1.,1.\n", {"PBARL 5", "inner radius"}},
-    {plate + "CBAR,3,5,1,2,0.,0.,1.\nPBARL,5,9,,BAR\n,1.,1.,2.\n", {"PBARL 5", "NSM"}},
-    {plate + "CTETRA,5,7,1,2,3,4\n", {"CTETRA 5", "solid"}},
-    {plate + "INCLUDE 'more.bdf'\n", {"line 8", "more.bdf"}},
-    {plate + "GRID,1,,0.,0.,0.\n", {"GRID 1", "twice"}},
-    {plate + "GRID,5,3,0.,0.,0.\n", {"GRID 5", "no coordinate system 3"}},
-    {plate + "GRID,5,,a.,0.,0.\n", {"GRID 5", "\"A.\" in field 4"}},
-    {plate + "GRID,-5,,0.,0.,0.\n", {"\"-5\" in field 2"}},
-    {plate + "CORD2R,3,4,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n", {"CORD2R 3", "no coordinate system 4"}},
-    {plate + "CORD2R,3,3,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n", {"CORD2R 3", "refers to itself"}},
-    {plate + "CORD2R,3,,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\n", {"CORD2R 3", "on one line"}},
-    {plate + "CQUAD4,1,7,1,2,3,4\n", {"CQUAD4 1", "another element"}},
-    {plate + "CQUAD4,2,7,1,2,3,4,,.5\n", {"CQUAD4 2", "offset"}},
-    {plate + "CQUAD4,2,7,1,2,3,4\n,,,2.\n", {"CQUAD4 2", "thickness of its own"}},
-    {plate + "CQUAD8,2,7,1,2,3\n", {"CQUAD8 2", "field 7"}},
-    {plate + "CQUAD8,2,7,1,2,3,4\n", {"line 8", "element 2", "between", "element 1 of order 1"}},
-    {plate + "CBAR,2,5,1,2,0.,0.,1.\n,456\n", {"CBAR 2", "released"}},
-    {plate + "SPC1,6,128,1\n", {"SPC1 6", "no components"}},
-    {plate + "SPC,6,1,3,.5\n", {"SPC 6", "prescribes"}},
-    {plate + "SPC1,6,3,1\nSPC1,7,3,2\n", {"SPC1 7", "second set"}},
-    {plate + "SET1,6,9,THRU,5\n", {"SET1 6", "no range"}},
-    {plate + "RBE2,6,9,123,1,2\n", {"RBE2 6", "123456"}},
-    {plate + "RBE2,6,9,123456,1,2\n", {"RBE2 6", "no node 9"}},
-    {plate + "RBE3,6,,4,123456,1.,123,1,2\n", {"RBE3 6", "node 4"}},
-    {plate + "RBAR,6,1,2,123,456\n", {"RBAR 6", "not wholly rigid"}},
-    {plate + "MPC,6,1,1,1.,2,1,-1.\n", {"MPC 6", "1 of 6 components"}},
-    {plate + "MPC,6,1,1,1.,2,1,-1.\n,,3,1,1.\n", {"MPC 6", "two terms"}},
-    {plate + "MPC,6,1,1,1.,2,1,-2.\n", {"MPC 6", "coefficients"}},
-    {plate + "MPC,6,1,1,1.,2,2,-1.\n", {"MPC 6", "two components"}},
-    {"SPC = 5\nCEND\nBEGIN BULK\n" + plate + "SPC1,6,3,1\n", {"line 1", "CASE SPC", "no SPC 5"}},
-    {"CEND\nSPC = 5\nSPC = 6\nBEGIN BULK\n" + plate, {"line 3", "line 2 chooses SPC = 5"}},
-    {square + "MAT1,9,2.1E5,,.3\nPSHELL,7,9,2.,9,,9\n", {"MAT1 9", "no density", "RHO"}},
-    {plate + "CBAR,3,5,1,2,0.,0.,1.\nPBAR,5,9,1.,1.,2.,1.\n\n,\n,1.,0.\n",
+    {nastran_plate + "CBAR,3,5,1,2,0.,0.,1.\nPBARL,5,9,,TUBE\n,1.,1.\n",
+     {"PBARL 5", "inner radius"}},
+    {nastran_plate + "CBAR,3,5,1,2,0.,0.,1.\nPBARL,5,9,,BAR\n,1.,1.,2.\n", {"PBARL 5", "NSM"}},
+    {nastran_plate + "CTETRA,5,7,1,2,3,4\n", {"CTETRA 5", "solid"}},
+    {nastran_plate + "INCLUDE 'more.bdf'\n", {"line 8", "more.bdf"}},
+    {nastran_plate + "GRID,1,,0.,0.,0.\n", {"GRID 1", "twice"}},
+    {nastran_plate + "GRID,5,3,0.,0.,0.\n", {"GRID 5", "no coordinate system 3"}},
+    {nastran_plate + "GRID,5,,a.,0.,0.\n", {"GRID 5", "\"A.\" in field 4"}},
+    {nastran_plate + "GRID,-5,,0.,0.,0.\n", {"\"-5\" in field 2"}},
+    {nastran_plate + "CORD2R,3,4,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n",
+     {"CORD2R 3", "no coordinate system 4"}},
+    {nastran_plate + "CORD2R,3,3,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n", {"CORD2R 3", "refers to itself"}},
+    {nastran_plate + "CORD2R,3,,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\n", {"CORD2R 3", "on one line"}},
+    {nastran_plate + "CQUAD4,1,7,1,2,3,4\n", {"CQUAD4 1", "another element"}},
+    {nastran_plate + "CQUAD4,2,7,1,2,3,4,,.5\n", {"CQUAD4 2", "offset"}},
+    {nastran_plate + "CQUAD4,2,7,1,2,3,4\n,,,2.\n", {"CQUAD4 2", "thickness of its own"}},
+    {nastran_plate + "CQUAD8,2,7,1,2,3\n", {"CQUAD8 2", "field 7"}},
+    {nastran_plate + "CQUAD8,2,7,1,2,3,4\n",
+     {"line 8", "element 2", "between", "element 1 of order 1"}},
+    {nastran_plate + "CBAR,2,5,1,2,0.,0.,1.\n,456\n", {"CBAR 2", "released"}},
+    {nastran_plate + "SPC1,6,128,1\n", {"SPC1 6", "no components"}},
+    {nastran_plate + "SPC,6,1,3,.5\n", {"SPC 6", "prescribes"}},
+    {nastran_plate + "SPC1,6,3,1\nSPC1,7,3,2\n", {"SPC1 7", "second set"}},
+    {nastran_plate + "SET1,6,9,THRU,5\n", {"SET1 6", "no range"}},
+    {nastran_plate + "RBE2,6,9,123,1,2\n", {"RBE2 6", "123456"}},
+    {nastran_plate + "RBE2,6,9,123456,1,2\n", {"RBE2 6", "no node 9"}},
+    {nastran_plate + "RBE3,6,,4,123456,1.,123,1,2\n", {"RBE3 6", "node 4"}},
+    {nastran_plate + "RBAR,6,1,2,123,456\n", {"RBAR 6", "not wholly rigid"}},
+    {nastran_plate + "MPC,6,1,1,1.,2,1,-1.\n", {"MPC 6", "1 of 6 components"}},
+    {nastran_plate + "MPC,6,1,1,1.,2,1,-1.\n,,3,1,1.\n", {"MPC 6", "two terms"}},
+    {nastran_plate + "MPC,6,1,1,1.,2,1,-2.\n", {"MPC 6", "coefficients"}},
+    {nastran_plate + "MPC,6,1,1,1.,2,2,-1.\n", {"MPC 6", "two components"}},
+    {"SPC = 5\nCEND\nBEGIN BULK\n" + nastran_plate + "SPC1,6,3,1\n",
+     {"line 1", "CASE SPC", "no SPC 5"}},
+    {"CEND\nSPC = 5\nSPC = 6\nBEGIN BULK\n" + nastran_plate, {"line 3", "line 2 chooses SPC = 5"}},
+    {nastran_square + "MAT1,9,2.1E5,,.3\nPSHELL,7,9,2.,9,,9\n", {"MAT1 9", "no density", "RHO"}},
+    {nastran_plate + "CBAR,3,5,1,2,0.,0.,1.\nPBAR,5,9,1.,1.,2.,1.\n\n,\n,1.,0.\n",
      {"PBAR 5", "one of its two planes"}},
-    {plate + "GRDSET,,,,,,,1\nGRDSET,,,,,,,2\n", {"GRDSET", "one already"}},
-    {plate + "RBE3,6,,9,123456,1.,123,1,2\n,2.,123,3\n", {"RBE3 6", "several weights"}},
-    {plate + "PARAM,WTMASS,.00259\n", {"PARAM WTMASS", "densities"}},
-    {square + steel + "PSHELL,7,9,2.\n", {"PSHELL 7", "MID2"}},
-    {square + steel + "PSHELL,7,9,2.,9,.5,9\n", {"PSHELL 7", "12I/T**3"}},
-    {square + steel + "PSHELL,7,9,2.,9,,9,,1.-9\n", {"PSHELL 7", "NSM"}},
-    {square + "MAT1,9,2.1E5,9.E4,.3\nPSHELL,7,9,2.,9\n", {"MAT1 9", "isotropic"}},
-    {plate + "CBAR,3,5,1,2,0.,0.,1.\nCBAR,4,5,2,3,0.,1.,0.\nPBAR,5,9,1.,1.,2.,1.\n",
+    {nastran_plate + "GRDSET,,,,,,,1\nGRDSET,,,,,,,2\n", {"GRDSET", "one already"}},
+    {nastran_plate + "RBE3,6,,9,123456,1.,123,1,2\n,2.,123,3\n", {"RBE3 6", "several weights"}},
+    {nastran_plate + "PARAM,WTMASS,.00259\n", {"PARAM WTMASS", "densities"}},
+    {nastran_square + nastran_steel + "PSHELL,7,9,2.\n", {"PSHELL 7", "MID2"}},
+    {nastran_square + nastran_steel + "PSHELL,7,9,2.,9,.5,9\n", {"PSHELL 7", "12I/T**3"}},
+    {nastran_square + nastran_steel + "PSHELL,7,9,2.,9,,9,,1.-9\n", {"PSHELL 7", "NSM"}},
+    {nastran_square + "MAT1,9,2.1E5,9.E4,.3\nPSHELL,7,9,2.,9\n", {"MAT1 9", "isotropic"}},
+    {nastran_plate + "CBAR,3,5,1,2,0.,0.,1.\nCBAR,4,5,2,3,0.,1.,0.\nPBAR,5,9,1.,1.,2.,1.\n",
      {"CBAR 4", "property of its own"}},
-    {plate + "CBEAM,3,5,1,2,0.,0.,1.\nPBEAM,5,9,1.,1.,2.,,1.\n,0.,0.,0.,0.,0.,0.,0.,0.\n"
-             ",NO,1.,2.,2.,2.\n",
+    {nastran_plate + "CBEAM,3,5,1,2,0.,0.,1.\nPBEAM,5,9,1.,1.,2.,,1.\n,0.,0.,0.,0.,0.,0.,0.,0.\n"
+                     ",NO,1.,2.,2.,2.\n",
      {"PBEAM 5", "station"}},
     {"SPC1,6,3,1,2,3,4,5,6,7\n", {"line 1", "more than 8 fields"}},
     {"+A,1\n", {"line 1", "continues no entry"}},
@@ -520,7 +530,7 @@ const std::vector<Refusal> refusals{
      "GRID    1\n+A      3\n",
      {"line 4", "continues line 1, as line 2 does"}}};
 
-INSTANTIATE_TEST_SUITE_P(Nastran, RefusedCard, ::testing::ValuesIn(refusals));
+INSTANTIATE_TEST_SUITE_P(Nastran, RefusedCard, ::testing::ValuesIn(refused_cards));
 
 }  // namespace
 }  // namespace chladni::mesh

@@ -16,7 +16,7 @@
 namespace chladni::mesh {
 namespace {
 
-const Mesh& disc()
+const Mesh& packed_disc()
 {
   static const Mesh made = annulus({.inner_radius = 0.1,
                                     .outer_radius = 0.2,
@@ -42,7 +42,7 @@ Mesh unpacked(const std::vector<char>& bytes)
 /// The mesh with one thing in it changed.
 Mesh with(const std::function<void(Mesh&)>& change)
 {
-  Mesh mesh = disc();
+  Mesh mesh = packed_disc();
   change(mesh);
   return mesh;
 }
@@ -64,7 +64,7 @@ TEST(Packing, OfAnotherKindIsRefused)
 
 TEST(PackedMesh, IsTheMesh)
 {
-  Mesh mesh = disc();
+  Mesh mesh = packed_disc();
   mesh.notes = {"a note"};
   const Mesh back = unpacked(packed(mesh));
   EXPECT_EQ(checksum(back), checksum(mesh));
@@ -102,7 +102,7 @@ TEST(PackedMesh, IsRefusedWhenItsPartsDoNotFit)
 
 TEST(PackedMesh, ThatIsCutOffIsRefused)
 {
-  const std::vector<char> whole = packed(disc());
+  const std::vector<char> whole = packed(packed_disc());
   for (std::size_t n = 0; n < whole.size(); n += 97)
     EXPECT_THROW(unpacked({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(n)}), Error);
   std::vector<char> longer = whole;
@@ -112,7 +112,7 @@ TEST(PackedMesh, ThatIsCutOffIsRefused)
 
 TEST(PackedMesh, OfDamagedBytesIsRefusedOrAMesh)
 {
-  const std::vector<char> whole = packed(disc());
+  const std::vector<char> whole = packed(packed_disc());
   std::mt19937 random(1);
   for (int i = 0; i < 2000; ++i) {
     std::vector<char> bytes = whole;

@@ -12,7 +12,7 @@
 namespace chladni::mesh {
 namespace {
 
-AnnulusOptions disc(int sectors = 1)
+AnnulusOptions repeated_disc(int sectors = 1)
 {
   return {.inner_radius = 0.05,
           .outer_radius = 0.15,
@@ -25,24 +25,24 @@ AnnulusOptions disc(int sectors = 1)
 
 TEST(Repetitions, OfAPlainDiscAreItsElementsAroundUnlessARingHasFewerNodes)
 {
-  AnnulusOptions plain = disc();
+  AnnulusOptions plain = repeated_disc();
   plain.rings.clear();
   const Mesh mesh = annulus(plain);
   const int n_rows = mesh.blocks[0].n_elements() / n_repetitions(mesh);
   EXPECT_EQ(mesh.blocks[0].n_elements() % n_repetitions(mesh), 0);
   EXPECT_LE(n_rows, 5);
-  EXPECT_EQ(n_repetitions(annulus(disc())), 16);
+  EXPECT_EQ(n_repetitions(annulus(repeated_disc())), 16);
 }
 
 TEST(Repetitions, EndWhereANodeAnElementsGroupOrASetOfNodesDiffers)
 {
-  Mesh moved = annulus(disc());
+  Mesh moved = annulus(repeated_disc());
   moved.positions[7][2] += 1e-4;
   EXPECT_EQ(n_repetitions(moved), 1);
-  Mesh marked = annulus(disc());
+  Mesh marked = annulus(repeated_disc());
   marked.groups.push_back({.name = "point", .dimension = 0, .nodes = {7}});
   EXPECT_EQ(n_repetitions(marked), 1);
-  Mesh patched = annulus(disc());
+  Mesh patched = annulus(repeated_disc());
   patched.groups.push_back({.name = "patch", .dimension = 2, .nodes = {}});
   patched.blocks[0].group[3] = static_cast<int>(patched.groups.size()) - 1;
   EXPECT_EQ(n_repetitions(patched), 1);
@@ -50,7 +50,7 @@ TEST(Repetitions, EndWhereANodeAnElementsGroupOrASetOfNodesDiffers)
 
 TEST(OneSector, OfAWholeDiscIsTheGeneratorsSector)
 {
-  const Mesh ours = one_sector(annulus(disc()), 16), theirs = annulus(disc(16));
+  const Mesh ours = one_sector(annulus(repeated_disc()), 16), theirs = annulus(repeated_disc(16));
   ASSERT_EQ(ours.n_nodes(), theirs.n_nodes());
   EXPECT_EQ(ours.sectors.count, 16);
   EXPECT_EQ(ours.sectors.pairs.size(), theirs.sectors.pairs.size());
@@ -64,7 +64,7 @@ TEST(OneSector, OfAWholeDiscIsTheGeneratorsSector)
 
 TEST(OneSector, MayBeNarrowBesideItsSides)
 {
-  AnnulusOptions wide = disc();
+  AnnulusOptions wide = repeated_disc();
   wide.inner_radius = 0.025;
   wide.outer_radius = 0.162;
   wide.rings = {{.name = "track", .radius = 0.13, .nodes = 60}};
@@ -76,16 +76,16 @@ TEST(OneSector, MayBeNarrowBesideItsSides)
 
 TEST(OneSector, OfAMeshThatDoesNotRepeatIsNone)
 {
-  Mesh moved = annulus(disc());
+  Mesh moved = annulus(repeated_disc());
   moved.positions[7][2] += 1e-4;
   EXPECT_THROW(one_sector(moved, 16), Error);
-  EXPECT_THROW(one_sector(annulus(disc()), 7), Error);
+  EXPECT_THROW(one_sector(annulus(repeated_disc()), 7), Error);
 }
 
 /// A disc whose sectors have vanes, radial plates on one side of it.
 Mesh disc_with_vanes(double first_angle, int n_vanes)
 {
-  AnnulusOptions options = disc();
+  AnnulusOptions options = repeated_disc();
   options.rings[0].nodes = 4 * n_vanes;
   Mesh mesh = annulus(options);
   const double c = std::cos(first_angle), s = std::sin(first_angle);

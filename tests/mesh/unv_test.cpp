@@ -32,22 +32,22 @@ const std::string quads =
     "7 94 1 1 7 4\n1 2 3 4\n"
     "8 94 2 1 7 4\n2 5 6 3\n";
 const std::string lines = "9 21 3 1 7 2\n0 0 0\n1 4\n";
-const std::string plate = six_nodes + dataset("2412", quads + lines);
+const std::string unv_plate = six_nodes + dataset("2412", quads + lines);
 
 std::string groups(const std::string& members)
 {
   return dataset("2467", members);
 }
 
-Mesh mesh_of_text(const std::string& text, const MeshOptions& options = {})
+Mesh mesh_of_unv(const std::string& text, const MeshOptions& options = {})
 {
   return mesh_of(unv_mesh(text, 1.0), options);
 }
 
-std::string error_in(const std::string& text)
+std::string error_in_unv(const std::string& text)
 {
   try {
-    mesh_of_text(text);
+    mesh_of_unv(text);
   } catch (const Error& error) {
     return error.what();
   }
@@ -56,10 +56,10 @@ std::string error_in(const std::string& text)
 
 TEST(Unv, NamesGroupsOfElementsAndNodes)
 {
-  const Mesh mesh = mesh_of_text(
-      plate + groups("1 0 0 0 0 0 0 2\nthe plate\n8 7 0 0 8 8 0 0\n"
-                     "2 0 0 0 0 0 0 3\nroot\n8 9 0 0 7 1 0 0\n7 4 0 0\n"
-                     "3 0 0 0 0 0 0 1\n\n7 5 0 0\n4 0 0 0 0 0 0 1\nthe plate\n7 2 0 0\n"));
+  const Mesh mesh = mesh_of_unv(
+      unv_plate + groups("1 0 0 0 0 0 0 2\nthe plate\n8 7 0 0 8 8 0 0\n"
+                         "2 0 0 0 0 0 0 3\nroot\n8 9 0 0 7 1 0 0\n7 4 0 0\n"
+                         "3 0 0 0 0 0 0 1\n\n7 5 0 0\n4 0 0 0 0 0 0 1\nthe plate\n7 2 0 0\n"));
   EXPECT_EQ(find_group(mesh, "the plate").nodes, (std::vector<int>{0, 1, 2, 3, 4, 5}));
   EXPECT_EQ(find_group(mesh, "the plate").dimension, 2);
   EXPECT_EQ(find_group(mesh, "the plate_nodes").nodes, (std::vector<int>{1}));
@@ -72,7 +72,7 @@ TEST(Unv, NamesGroupsOfElementsAndNodes)
 
 TEST(Unv, MakesGroupsOfPhysicalPropertiesWhereThereAreNoOthers)
 {
-  const Mesh mesh = mesh_of_text(plate, {.line_groups = {"property_3_lines"}});
+  const Mesh mesh = mesh_of_unv(unv_plate, {.line_groups = {"property_3_lines"}});
   EXPECT_EQ(find_group(mesh, "property_1").nodes, (std::vector<int>{0, 1, 2, 3}));
   EXPECT_EQ(find_group(mesh, "property_2").nodes, (std::vector<int>{1, 2, 4, 5}));
   EXPECT_EQ(mesh.blocks.at(1).shape, Shape::line);
@@ -81,12 +81,12 @@ TEST(Unv, MakesGroupsOfPhysicalPropertiesWhereThereAreNoOthers)
 /// Groups that overlap are usual; the one with a section says of what an element is made.
 TEST(Unv, GivesAnElementOfSeveralGroupsThatWithASection)
 {
-  const std::string text = plate + groups(
-                                       "1 0 0 0 0 0 0 2\nall\n8 7 0 0 8 8 0 0\n"
-                                       "2 0 0 0 0 0 0 1\nfar\n8 8 0 0\n"
-                                       "3 0 0 0 0 0 0 1\nnear\n8 7 0 0\n");
+  const std::string text = unv_plate + groups(
+                                           "1 0 0 0 0 0 0 2\nall\n8 7 0 0 8 8 0 0\n"
+                                           "2 0 0 0 0 0 0 1\nfar\n8 8 0 0\n"
+                                           "3 0 0 0 0 0 0 1\nnear\n8 7 0 0\n");
   const auto groups_of = [&](const std::vector<std::string>& sections) {
-    const Mesh mesh = mesh_of_text(text, {.shell_groups = sections});
+    const Mesh mesh = mesh_of_unv(text, {.shell_groups = sections});
     std::vector<std::string> names;
     for (const int group : mesh.blocks.at(0).group) names.push_back(mesh.groups[group].name);
     EXPECT_EQ(find_group(mesh, "all").nodes.size(), 6u);
@@ -112,7 +112,7 @@ TEST(Unv, NumbersNodesOfOrderTwoAroundTheEdges)
                                                   {1, 2}, {0, 2}, {0, 1}, {1, 1}};
   for (int i = 0; i < 9; ++i) nodes += node(i + 1, places[i][0], places[i][1]);
   const auto lattice_is_ordered = [&](const std::string& element) {
-    const Mesh mesh = mesh_of_text(dataset("2411", nodes) + dataset("2412", element));
+    const Mesh mesh = mesh_of_unv(dataset("2411", nodes) + dataset("2412", element));
     const ElementBlock& block = mesh.blocks.at(0);
     for (int k = 0; k < block.nodes_per_element; ++k) {
       const auto& x = mesh.positions[block.element_nodes(0)[k]];
@@ -123,7 +123,7 @@ TEST(Unv, NumbersNodesOfOrderTwoAroundTheEdges)
   lattice_is_ordered("1 95 1 1 7 8\n1 2 3 4 5 6 7 8\n");
   lattice_is_ordered("1 45 1 1 7 9\n1 2 3 4 5 6 7 8\n9\n");
   const Mesh triangle =
-      mesh_of_text(dataset("2411", nodes) + dataset("2412", "1 92 1 1 7 6\n1 2 3 9 7 8\n"));
+      mesh_of_unv(dataset("2411", nodes) + dataset("2412", "1 92 1 1 7 6\n1 2 3 9 7 8\n"));
   const auto corner = [&](int k) {
     return triangle.positions[triangle.blocks.at(0).element_nodes(0)[k]];
   };
@@ -134,8 +134,8 @@ TEST(Unv, NumbersNodesOfOrderTwoAroundTheEdges)
 
 TEST(Unv, LeavesOutWhatIsNoMesh)
 {
-  const Mesh mesh = mesh_of_text(dataset("151", "a name\n\n") + plate + dataset("2414", "1\n") +
-                                 dataset("164", "1  mm  2\n1.0D+03 1.0 1.0\n273.15\n"));
+  const Mesh mesh = mesh_of_unv(dataset("151", "a name\n\n") + unv_plate + dataset("2414", "1\n") +
+                                dataset("164", "1  mm  2\n1.0D+03 1.0 1.0\n273.15\n"));
   std::string notes;
   for (const std::string& note : mesh.notes) notes += note + "\n";
   expect_words(notes, {"1 datasets of results", "dataset 164 says that 1 is 0.001 m"});
@@ -151,28 +151,28 @@ TEST(Unv, RefusesWhatIsWrongOrNotKnown)
       {six_nodes + dataset("2412", "1 94 1 1 7 99\n"), {"has 99 nodes"}},
       {six_nodes + dataset("2412", "1 94 1 1 7 4\n1 2 3\n"), {"dataset 2412", "ends where"}},
       {six_nodes + dataset("2412", "1 94 1 1 7 4\n1 2 x 4\n"), {"\"x\"", "number of a node"}},
-      {plate + dataset("2412", "7 94 1 1 7 4\n1 2 3 4\n"), {"element 7 is there twice"}},
-      {plate + dataset("2411", node(1, 0, 0)), {"node 1 is there twice"}},
+      {unv_plate + dataset("2412", "7 94 1 1 7 4\n1 2 3 4\n"), {"element 7 is there twice"}},
+      {unv_plate + dataset("2411", node(1, 0, 0)), {"node 1 is there twice"}},
       {dataset("2411", "1 1 1 1\n0.0 1e999 0.0\n"), {"\"1e999\"", "coordinate"}},
       {dataset("2411", "0 1 1 1\n0.0 0.0 0.0\n"), {"0 is no number of a node"}},
-      {plate + dataset("781", ""), {"dataset 781", "older form"}},
-      {plate + dataset("999", ""), {"dataset 999", "not known"}},
-      {plate + groups("1 0 0 0 0 0 0 1\nA\n9 7 0 0\n"), {"type 9"}},
-      {plate + groups("1 0 0 0 0 0 0 2\nA\n8 7 0 0\n"), {"ends where"}},
-      {plate + dataset("164", "1 x 2\n0.0 1.0 1.0\n"), {"factor of lengths"}}};
-  for (const Refusal& refusal : refusals) expect_refused(refusal, error_in(refusal.text));
-  expect_words(error_in(plate + "    -1\n  2467\n"), {"cut off", "2467"});
-  expect_words(error_in(plate + groups("1 0 0 0 0 0 0 2\nA\n8 7 0 0 8 9 0 0\n"
-                                       "2 0 0 0 0 0 0 1\nA_lines\n8 9 0 0\n")),
+      {unv_plate + dataset("781", ""), {"dataset 781", "older form"}},
+      {unv_plate + dataset("999", ""), {"dataset 999", "not known"}},
+      {unv_plate + groups("1 0 0 0 0 0 0 1\nA\n9 7 0 0\n"), {"type 9"}},
+      {unv_plate + groups("1 0 0 0 0 0 0 2\nA\n8 7 0 0\n"), {"ends where"}},
+      {unv_plate + dataset("164", "1 x 2\n0.0 1.0 1.0\n"), {"factor of lengths"}}};
+  for (const Refusal& refusal : refusals) expect_refused(refusal, error_in_unv(refusal.text));
+  expect_words(error_in_unv(unv_plate + "    -1\n  2467\n"), {"cut off", "2467"});
+  expect_words(error_in_unv(unv_plate + groups("1 0 0 0 0 0 0 2\nA\n8 7 0 0 8 9 0 0\n"
+                                               "2 0 0 0 0 0 0 1\nA_lines\n8 9 0 0\n")),
                {"\"A_lines\" is there twice"});
-  expect_words(error_in(six_nodes + dataset("2412", "1 94 1 1 7 4\n1 2 3 44\n")),
+  expect_words(error_in_unv(six_nodes + dataset("2412", "1 94 1 1 7 4\n1 2 3 44\n")),
                {"element 1", "node 44"});
 }
 
 TEST(Unv, PassesOverWordsBetweenDatasets)
 {
   const std::string words = "Workpiece\nwritten on 2026-11-29, by 2 people\n";
-  EXPECT_NEAR(area(mesh_of_text(words + plate + words)), 3.0, 1e-15);
+  EXPECT_NEAR(area(mesh_of_unv(words + unv_plate + words)), 3.0, 1e-15);
 }
 
 TEST(Unv, NamesLinesOfAGroupOfSurfacesByTheirKind)
@@ -181,23 +181,23 @@ TEST(Unv, NamesLinesOfAGroupOfSurfacesByTheirKind)
        {groups("1 0 0 0 0 0 0 2\nA\n8 7 0 0 8 9 0 0\n"),
         groups("1 0 0 0 0 0 0 1\nA\n8 7 0 0\n2 0 0 0 0 0 0 1\nA\n8 9 0 0\n")}) {
     const Mesh mesh =
-        mesh_of_text(plate + both, {.line_groups = {"A_lines"}, .shell_groups = {"A"}});
+        mesh_of_unv(unv_plate + both, {.line_groups = {"A_lines"}, .shell_groups = {"A"}});
     EXPECT_EQ(find_group(mesh, "A").nodes, (std::vector<int>{0, 1, 2, 3}));
     EXPECT_EQ(find_group(mesh, "A_lines").nodes, (std::vector<int>{0, 3}));
     EXPECT_EQ(mesh.blocks.size(), 2U);
   }
   const Mesh united =
-      mesh_of_text(plate + groups("1 0 0 0 0 0 0 1\nA\n8 7 0 0\n2 0 0 0 0 0 0 1\nA\n8 8 0 0\n"));
+      mesh_of_unv(unv_plate + groups("1 0 0 0 0 0 0 1\nA\n8 7 0 0\n2 0 0 0 0 0 0 1\nA\n8 8 0 0\n"));
   EXPECT_EQ(find_group(united, "A").nodes.size(), 6U);
 }
 
 TEST(Unv, HasAnElementOfTwoNumbersOnce)
 {
-  const std::string twice = plate + dataset("2412", "70 94 1 1 7 4\n2 3 4 1\n") +
+  const std::string twice = unv_plate + dataset("2412", "70 94 1 1 7 4\n2 3 4 1\n") +
                             groups(
                                 "1 0 0 0 0 0 0 2\nA\n8 7 0 0 8 8 0 0\n"
                                 "2 0 0 0 0 0 0 1\nB\n8 70 0 0\n");
-  const Mesh mesh = mesh_of_text(twice, {.shell_groups = {"B"}});
+  const Mesh mesh = mesh_of_unv(twice, {.shell_groups = {"B"}});
   EXPECT_NEAR(area(mesh), 3.0, 1e-15);
   EXPECT_EQ(mesh.groups[std::size_t(mesh.blocks.at(0).group.at(0))].name, "B") << "has a section";
   EXPECT_EQ(mesh.groups[std::size_t(mesh.blocks.at(0).group.at(1))].name, "A");
@@ -205,7 +205,7 @@ TEST(Unv, HasAnElementOfTwoNumbersOnce)
   for (const std::string& note : mesh.notes) notes += note + "\n";
   expect_words(notes, {"7 and 70"});
   try {
-    mesh_of_text(twice, {.shell_groups = {"A", "B"}});
+    mesh_of_unv(twice, {.shell_groups = {"A", "B"}});
     FAIL() << "two sections";
   } catch (const Error& error) {
     expect_words(error.what(), {"element 7", "\"A\"", "\"B\"", "section"});
@@ -236,7 +236,7 @@ TEST_F(UnvFile, OfGmshHasTheGroupsThatItWasWrittenWith)
 
 TEST_F(UnvFile, IsScaledByItsUnit)
 {
-  const std::string file = write("a.unv", plate);
+  const std::string file = write("a.unv", unv_plate);
   EXPECT_NEAR(area(generate({.file = file, .length_unit = 1e-3})), 3e-6, 1e-18);
 }
 

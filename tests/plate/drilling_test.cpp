@@ -18,7 +18,7 @@ using testing::map_of;
 using testing::plate;
 
 template <typename Part>
-std::string error_of(const Part& check)
+std::string error_of_check(const Part& check)
 {
   try {
     check();
@@ -31,7 +31,7 @@ std::string error_of(const Part& check)
 /// What is said of a mass, spring, load or support on the plate in the x-y plane; empty if nothing.
 std::string complaint(const PointMass& mass)
 {
-  return error_of([&] {
+  return error_of_check([&] {
     const mesh::Mesh mesh = plate();
     point_elements(mesh, {.masses = {&mass, 1}}, map_of(mesh, {}));
   });
@@ -39,7 +39,7 @@ std::string complaint(const PointMass& mass)
 
 std::string complaint(const Spring& spring)
 {
-  return error_of([&] {
+  return error_of_check([&] {
     const mesh::Mesh mesh = plate();
     point_elements(mesh, {.springs = {&spring, 1}}, map_of(mesh, {}));
   });
@@ -47,7 +47,7 @@ std::string complaint(const Spring& spring)
 
 std::string complaint(const NodalLoad& moment)
 {
-  return error_of([&] {
+  return error_of_check([&] {
     const mesh::Mesh mesh = plate();
     const Load load = moment;
     refuse_drilling(mesh, map_of(mesh, {}), std::span(&load, 1));
@@ -56,7 +56,7 @@ std::string complaint(const NodalLoad& moment)
 
 std::string complaint(const std::vector<Support>& supports)
 {
-  return error_of([&] {
+  return error_of_check([&] {
     const mesh::Mesh mesh = plate();
     refuse_drilling(mesh, map_of(mesh, {}), supports, std::span<const Spring>());
   });
@@ -132,7 +132,7 @@ TEST(DrillingAxes, EndAtANodeOfTheShellThatOthersFollow)
   EXPECT_TRUE(axes.row(followed).isZero(0.0));
   EXPECT_FALSE(drilling_axes(mesh, map_of(mesh, {})).row(followed).isZero(0.0));
   const PointMass flywheel{"centre", 1.0, {0, 0, 1e-3}};
-  EXPECT_EQ(error_of([&] { point_elements(mesh, {.masses = {&flywheel, 1}}, dofs); }), "");
+  EXPECT_EQ(error_of_check([&] { point_elements(mesh, {.masses = {&flywheel, 1}}, dofs); }), "");
   EXPECT_TRUE(names_the_rotation(complaint(flywheel)));
 }
 

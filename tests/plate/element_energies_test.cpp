@@ -12,17 +12,17 @@ namespace {
 using Eigen::MatrixXd;
 
 constexpr double young = 2e11, poisson = 0.3, thickness = 0.01, offset = 0.03;
-const std::array sections{
+const std::array plate_sections{
     ShellSection{.group = "plate",
                  .material = {.young = young, .poisson = poisson, .density = 8000.0},
                  .thickness = thickness,
                  .offset = offset}};
-const Structure structure{.shells = sections};
+const Structure structure{.shells = plate_sections};
 constexpr double membrane = young * thickness / (1.0 - poisson * poisson);
 constexpr double bending = membrane * thickness * thickness / 12.0;
 
 /// Elements of 0.1 x 0.25 m.
-mesh::Mesh plate()
+mesh::Mesh two_section_plate()
 {
   return testing::rectangle({.a = 0.3, .b = 0.5, .n_x = 3, .n_y = 2, .order = 2});
 }
@@ -30,7 +30,7 @@ mesh::Mesh plate()
 TEST(ElementEnergies, AreThoseOfStretchingAndBendingAtTheOffset)
 {
   constexpr double strain = 1e-3, curvature = 0.02;
-  const mesh::Mesh mesh = plate();
+  const mesh::Mesh mesh = two_section_plate();
   MatrixXd motions = MatrixXd::Zero(6 * mesh.n_nodes(), 2);
   for (int node = 0; node < mesh.n_nodes(); ++node) {
     const double x = mesh.positions[static_cast<std::size_t>(node)][0];
@@ -52,7 +52,7 @@ TEST(ElementEnergies, AreThoseOfStretchingAndBendingAtTheOffset)
 
 TEST(ElementEnergies, OfAMotionAreWhereItIs)
 {
-  const mesh::Mesh mesh = plate();
+  const mesh::Mesh mesh = two_section_plate();
   MatrixXd motions = MatrixXd::Zero(6 * mesh.n_nodes(), 1);
   motions(0, 0) = 1e-3;  // a corner
   const MatrixXd energies = element_energies(mesh, structure, motions, PETSC_COMM_WORLD);

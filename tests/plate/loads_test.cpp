@@ -13,8 +13,8 @@
 namespace chladni::plate {
 namespace {
 
-const Material material{.young = 2e11, .poisson = 0.3, .density = 8000.0};
-const std::vector<int> all_components{0, 1, 2, 3, 4, 5};
+const Material steel_like_material{.young = 2e11, .poisson = 0.3, .density = 8000.0};
+const std::vector<int> six_components{0, 1, 2, 3, 4, 5};
 
 /// A mesh of one section and its system, without couplings unless given.
 struct Model {
@@ -34,7 +34,7 @@ Model model_of(mesh::Mesh mesh, const ShellSection& section,
 Model plate_model()
 {
   return model_of(testing::rectangle({.a = 2.0, .b = 1.0, .n_x = 4, .n_y = 3, .order = 2}),
-                  {.group = "plate", .material = material, .thickness = 0.05});
+                  {.group = "plate", .material = steel_like_material, .thickness = 0.05});
 }
 
 Model disc_with_hub()

@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double pi = std::numbers::pi;
-const Material steel{.young = 2e11, .poisson = 0.3, .density = 8000.0};
+const Material beam_steel{.young = 2e11, .poisson = 0.3, .density = 8000.0};
 
 /// A line of 10 m along x.
 NodeVectors ten_metres(Index n_elements)
@@ -51,7 +51,7 @@ TEST(NafemsBeams, CantileverWithOffCentreMasses)
 {
   const double d = 0.5, I = pi * d * d * d * d / 64.0;
   const BeamSection rod{.group = "rod",
-                        .material = steel,
+                        .material = beam_steel,
                         .theory = BeamTheory::bernoulli_euler,
                         .area = pi * d * d / 4.0,
                         .I_y = I,
@@ -73,7 +73,7 @@ TEST(NafemsBeams, CantileverWithOffCentreMasses)
 TEST(NafemsBeams, DeepSimplySupportedBeam)
 {
   const BeamSection deep{.group = "deep",
-                         .material = steel,
+                         .material = beam_steel,
                          .area = 4.0,
                          .I_y = 4.0 / 3.0,
                          .I_z = 4.0 / 3.0,

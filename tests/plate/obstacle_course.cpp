@@ -12,11 +12,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double degree = std::numbers::pi / 180.0;
+constexpr double one_degree = std::numbers::pi / 180.0;
 
 // Components held on a plane of symmetry with this normal.
 const std::vector<int> symmetric_x{0, 4, 5}, symmetric_y{1, 3, 5}, symmetric_z{2, 3, 4};
-const std::vector<int> clamped{0, 1, 2, 3, 4, 5};
+const std::vector<int> all_six{0, 1, 2, 3, 4, 5};
 
 bool everywhere(const Vector2d& /*uv*/)
 {
@@ -72,7 +72,7 @@ double hemisphere(const ShellModel& model)
 
 double scordelis_lo_roof(const Grid& grid)
 {
-  const ShellModel model = shell_model({cylinder(25.0, 40.0 * degree, 25.0)}, grid,
+  const ShellModel model = shell_model({cylinder(25.0, 40.0 * one_degree, 25.0)}, grid,
                                        {.young = 4.32e8, .poisson = 0.0, .density = 1.0}, 0.25);
   const auto free = free_dofs(
       model, {{on(0, 0.0), symmetric_x}, {on(1, 0.0), symmetric_y}, {on(1, 1.0), {0, 2}}});
@@ -82,7 +82,7 @@ double scordelis_lo_roof(const Grid& grid)
 
 double pinched_cylinder(const Grid& grid)
 {
-  const ShellModel model = shell_model({cylinder(300.0, 90.0 * degree, 300.0)}, grid,
+  const ShellModel model = shell_model({cylinder(300.0, 90.0 * one_degree, 300.0)}, grid,
                                        {.young = 3e6, .poisson = 0.3, .density = 1.0}, 3.0);
   const auto free = free_dofs(model, {{on(0, 0.0), symmetric_x},
                                       {on(0, 1.0), symmetric_z},
@@ -95,7 +95,7 @@ double pinched_cylinder(const Grid& grid)
 double hemisphere_with_hole(const Grid& grid)
 {
   const Surface surface = [](double u, double v) {
-    return Vector3d(10.0 * direction(90.0 * degree * u, 72.0 * degree * v));
+    return Vector3d(10.0 * direction(90.0 * one_degree * u, 72.0 * one_degree * v));
   };
   return hemisphere(shell_model({surface}, grid, hemisphere_material, 0.04));
 }
@@ -122,12 +122,12 @@ double full_hemisphere(const Grid& grid)
 TwistedBeam twisted_beam(const Grid& grid, double thickness, double force)
 {
   const Surface surface = [](double u, double v) {
-    const double angle = 90.0 * degree * u;
+    const double angle = 90.0 * one_degree * u;
     return Vector3d(12.0 * u, 1.1 * (v - 0.5) * std::cos(angle), 1.1 * (v - 0.5) * std::sin(angle));
   };
   const ShellModel model =
       shell_model({surface}, grid, {.young = 29e6, .poisson = 0.22, .density = 1.0}, thickness);
-  const auto free = free_dofs(model, {{on(0, 0.0), clamped}});
+  const auto free = free_dofs(model, {{on(0, 0.0), all_six}});
   const auto displacement = [&](int component) {
     const Vector3d f = force * Vector3d::Unit(component);
     const VectorXd load = edge_load(model, grid, on(0, 1.0), f);
@@ -138,7 +138,7 @@ TwistedBeam twisted_beam(const Grid& grid, double thickness, double force)
 
 double raasch_hook(const Grid& grid)
 {
-  constexpr double turn = 60.0 * degree;
+  constexpr double turn = 60.0 * one_degree;
   const Vector2d centre_1(0.0, 14.0);
   const Vector2d joint = centre_1 + 14.0 * Vector2d(std::sin(turn), -std::cos(turn));
   const Vector2d centre_2 = joint + 46.0 * Vector2d(std::sin(turn), -std::cos(turn));
@@ -150,14 +150,14 @@ double raasch_hook(const Grid& grid)
       const double angle = turn * u / first;
       x = centre_1 + 14.0 * Vector2d(std::sin(angle), -std::cos(angle));
     } else {
-      const double angle = turn - 150.0 * degree * (u - first) / (1.0 - first);
+      const double angle = turn - 150.0 * one_degree * (u - first) / (1.0 - first);
       x = centre_2 + 46.0 * Vector2d(-std::sin(angle), std::cos(angle));
     }
     return Vector3d(x[0], x[1], 20.0 * v);
   };
   const ShellModel model =
       shell_model({surface}, grid, {.young = 3300.0, .poisson = 0.35, .density = 1.0}, 2.0);
-  const auto free = free_dofs(model, {{on(0, 0.0), clamped}});
+  const auto free = free_dofs(model, {{on(0, 0.0), all_six}});
   const VectorXd load = edge_load(model, grid, on(0, 1.0), Vector3d::UnitZ());
   return load.dot(solve(model, free, load));
 }
@@ -165,7 +165,7 @@ double raasch_hook(const Grid& grid)
 double morley_rhombus(const Grid& grid)
 {
   const Surface surface = [](double u, double v) {
-    return Vector3d(u + v * std::cos(30.0 * degree), v * std::sin(30.0 * degree), 0.0);
+    return Vector3d(u + v * std::cos(30.0 * one_degree), v * std::sin(30.0 * one_degree), 0.0);
   };
   const Material material{.young = 1.0, .poisson = 0.3, .density = 1.0};
   const ShellModel model = shell_model({surface}, grid, material, 0.01);
@@ -183,7 +183,7 @@ double clamped_hypar(const Grid& grid, double thickness)
   };
   const ShellModel model =
       shell_model({surface}, grid, {.young = 2e11, .poisson = 0.3, .density = 1.0}, thickness);
-  const auto free = free_dofs(model, {{on(0, 0.0), clamped}});
+  const auto free = free_dofs(model, {{on(0, 0.0), all_six}});
   const VectorXd u =
       solve(model, free, area_load(model, {0.0, 0.0, -3.6e8 * std::pow(thickness, 3)}));
   return -u[6 * node_at(model, {1.0, 0.5}) + 2];

@@ -56,7 +56,7 @@ TEST(SpringMatrix, FeelsNoForceInRigidMotionAndStretchesAtTheMiddle)
   EXPECT_NEAR(u.dot(K * u), 2.0, 1e-14);
 }
 
-mesh::Mesh beam_mesh()
+mesh::Mesh two_node_beam()
 {
   return mesh::beam({.start = {0, 0, 0},
                      .end = {2, 0, 0},
@@ -65,7 +65,7 @@ mesh::Mesh beam_mesh()
                      .points = {{.name = "middle", .distance = 1.0}}});
 }
 
-const std::vector<BeamSection> sections{
+const std::vector<BeamSection> beam_sections{
     {.group = "beam",
      .material = {.young = 2e5, .poisson = 0.25, .density = 7.0},
      .area = 0.01,
@@ -75,9 +75,9 @@ const std::vector<BeamSection> sections{
 
 System assemble_with(const std::vector<PointMass>& masses, const std::vector<Spring>& springs)
 {
-  const mesh::Mesh mesh = beam_mesh();
+  const mesh::Mesh mesh = two_node_beam();
   const int n_ranks = petsc::size(PETSC_COMM_WORLD);
-  return assemble(mesh, {.beams = sections, .masses = masses, .springs = springs},
+  return assemble(mesh, {.beams = beam_sections, .masses = masses, .springs = springs},
                   make_dof_map(mesh, {}, mesh::node_owners(mesh, n_ranks), n_ranks),
                   PETSC_COMM_WORLD);
 }
@@ -118,7 +118,8 @@ TEST(PointElements, AreAddedToTheMatricesOnAnyNumberOfRanks)
   EXPECT_NEAR(entry(system, system.C, {0, 0}, {4, 0}), -9.0, 0.0);
 }
 
-std::string complaint(const std::vector<PointMass>& masses, const std::vector<Spring>& springs)
+std::string assembly_complaint(const std::vector<PointMass>& masses,
+                               const std::vector<Spring>& springs)
 {
   try {
     assemble_with(masses, springs);
@@ -130,16 +131,17 @@ std::string complaint(const std::vector<PointMass>& masses, const std::vector<Sp
 
 TEST(PointElements, NamePlacesThatDoNotFit)
 {
-  EXPECT_NE(complaint({{.at = "tip", .mass = 1.0}}, {})
+  EXPECT_NE(assembly_complaint({{.at = "tip", .mass = 1.0}}, {})
                 .find("\"tip\" is neither a group or ring of the mesh nor a coupling; there "
                       "are: beam, start, end, middle"),
             std::string::npos);
-  EXPECT_NE(complaint({}, {{.at = "start", .to = "beam", .stiffness = uneven}})
+  EXPECT_NE(assembly_complaint({}, {{.at = "start", .to = "beam", .stiffness = uneven}})
                 .find("spring at \"beam\": between two places each must be one node, and this "
                       "group has 5"),
             std::string::npos);
-  EXPECT_NE(complaint({}, {{.at = "end", .to = "end", .stiffness = uneven}}).find("begins"),
-            std::string::npos);
+  EXPECT_NE(
+      assembly_complaint({}, {{.at = "end", .to = "end", .stiffness = uneven}}).find("begins"),
+      std::string::npos);
 }
 
 }  // namespace

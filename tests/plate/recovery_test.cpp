@@ -16,7 +16,7 @@ namespace {
 using Eigen::MatrixXd;
 using std::numbers::pi;
 
-const Material material{.young = 2e11, .poisson = 0.3, .density = 8000.0};
+const Material steel_of_plate{.young = 2e11, .poisson = 0.3, .density = 8000.0};
 constexpr double a = 1.0;
 constexpr double p_0 = 1e4;
 
@@ -29,7 +29,7 @@ struct Plate {
 Plate square(double thickness, int n, int order)
 {
   return {.mesh = testing::rectangle({.a = a, .b = a, .n_x = n, .n_y = n, .order = order}),
-          .section = {.group = "plate", .material = material, .thickness = thickness}};
+          .section = {.group = "plate", .material = steel_of_plate, .thickness = thickness}};
 }
 
 /// The motion w = sin(pi x) sin(pi y) of a thin plate with its rotations, at the nodes.
@@ -52,7 +52,7 @@ double moment_error(int n, int order)
   const Plate plate = square(t, n, order);
   const ShellResultants result =
       nodal_resultants(plate.mesh, plate.section, sine_wave(plate.mesh), PETSC_COMM_WORLD);
-  const double D = material.young * t * t * t / (12.0 * (1.0 - 0.3 * 0.3));
+  const double D = steel_of_plate.young * t * t * t / (12.0 * (1.0 - 0.3 * 0.3));
   const double amplitude = D * pi * pi * (1.0 + 0.3);
   double largest = 0.0;
   for (int node = 0; node < plate.mesh.n_nodes(); ++node) {

@@ -17,12 +17,12 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-const Material steel{.young = 2e11, .poisson = 0.3, .density = 8000.0};
+const Material rib_steel{.young = 2e11, .poisson = 0.3, .density = 8000.0};
 
 /// 20 mm wide and 100 mm high, and so stiff in shear that it does not shear the plate beside it:
 /// that would be a layer as thin as the plate, which no order resolves.
 const BeamSection rib{.group = "rib",
-                      .material = steel,
+                      .material = rib_steel,
                       .area = 2e-3,
                       .I_y = 1e-3 * 2e-3 / 1.2,
                       .I_z = 1e-3 * 8e-5 / 1.2,
@@ -66,7 +66,7 @@ VectorXd ribbed_plate(int order, int n)
       {[](double u, double v) -> Vector3d {
         return {u, v, 0.0};
       }},
-      {.shape = mesh::Shape::quadrilateral, .order = order, .n_u = n, .n_v = n}, steel, 0.02);
+      {.shape = mesh::Shape::quadrilateral, .order = order, .n_u = n, .n_v = n}, rib_steel, 0.02);
   for (const std::vector<int>& nodes : middle_lines(model, order)) add_line(model, nodes);
   const auto everywhere = [](const Vector2d& /*uv*/) { return true; };
   // Held in z, and the turn along each edge.

@@ -62,7 +62,7 @@ std::vector<Corners> elements_of(const Grid& grid)
   return elements;
 }
 
-Vector2d map_point(const Corners& x, const Vector2d& P)
+Vector2d bilinear_point(const Corners& x, const Vector2d& P)
 {
   if (x.size() == 3) return x[0] + P[0] * (x[1] - x[0]) + P[1] * (x[2] - x[0]);
   const double r = P[0], s = P[1];
@@ -108,7 +108,7 @@ void add_elements(ShellModel& model, const std::vector<Surface>& surfaces, const
   for (const Surface& surface : surfaces) {
     for (const Corners& corners : elements_of(grid)) {
       for (Index k = 0; k < lattice_points.rows(); ++k) {
-        const Vector2d uv = map_point(corners, lattice_points.row(k).transpose());
+        const Vector2d uv = bilinear_point(corners, lattice_points.row(k).transpose());
         block.nodes.push_back(store.node(uv, surface(uv[0], uv[1])));
       }
       block.numbers.push_back(block.n_elements() + 1);

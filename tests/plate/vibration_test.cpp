@@ -16,13 +16,13 @@ using Eigen::VectorXd;
 
 const Material steel{.young = 2e11, .poisson = 0.3, .density = 8000.0};
 
-bool everywhere(const Vector2d& /*uv*/)
+bool whole_plate(const Vector2d& /*uv*/)
 {
   return true;
 }
 
 /// Deflection and rotations of a plane shell alone; or its plane displacements and drilling.
-const Support bending{everywhere, {0, 1, 5}}, in_plane{everywhere, {2, 3, 4}};
+const Support bending{whole_plate, {0, 1, 5}}, in_plane{whole_plate, {2, 3, 4}};
 
 Vector3d square(double u, double v)
 {

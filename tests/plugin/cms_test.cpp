@@ -22,13 +22,13 @@ namespace {
 using linear::testing::free_chain;
 using linear::testing::master_set;
 
-constexpr PetscInt n = 40;  // masses
+constexpr PetscInt chain_masses = 40;  // masses
 constexpr double round_off = 1e-12;
 
 /// A CMS of the free chain, or of what is made of it.
 struct Solver {
-  linear::testing::Chain chain = free_chain(n);
-  petsc::IndexSet masters = master_set(chain.K, {0, n - 1});
+  linear::testing::Chain chain = free_chain(chain_masses);
+  petsc::IndexSet masters = master_set(chain.K, {0, chain_masses - 1});
   CMS cms = nullptr;
   bool monitor_was_refused = false;
 
@@ -100,8 +100,8 @@ TEST(CMS, KeepsTheChainBetweenItsEnds)
   EXPECT_EQ(C_r, nullptr);
   const Eigen::MatrixXd K = linear::replicate(K_r), M = linear::replicate(M_r);
   ASSERT_EQ(K.rows(), 2);
-  EXPECT_NEAR(K(0, 1), -1.0 / (n - 1), round_off);  // springs in series
-  EXPECT_NEAR(M(0, 0) + 2.0 * M(0, 1) + M(1, 1), n, 100 * round_off);
+  EXPECT_NEAR(K(0, 1), -1.0 / (chain_masses - 1), round_off);  // springs in series
+  EXPECT_NEAR(M(0, 0) + 2.0 * M(0, 1) + M(1, 1), chain_masses, 100 * round_off);
 }
 
 TEST(CMS, GivesTheTransformationThatItProjectsWith)
@@ -129,7 +129,7 @@ TEST(CMS, KeepsTheOrderOfTheInterfaceWhicheverRankGivesIt)
 {
   Solver solver;
   const bool first_rank = petsc::rank(PETSC_COMM_WORLD) == 0;
-  const std::vector<PetscInt> order = {n - 1, 0, n / 2};
+  const std::vector<PetscInt> order = {chain_masses - 1, 0, chain_masses / 2};
   petsc::IndexSet masters;
   petsc::check(ISCreateGeneral(PETSC_COMM_WORLD, first_rank ? 3 : 0, order.data(),
                                PETSC_COPY_VALUES, masters.put()));
@@ -146,8 +146,8 @@ TEST(CMS, KeepsTheOrderOfTheInterfaceWhicheverRankGivesIt)
   petsc::check(CMSGetReducedOperators(solver.cms, &K_r, nullptr, nullptr));
   const Eigen::MatrixXd K = linear::replicate(K_r);
   EXPECT_NEAR(K(0, 1), 0.0, round_off);  // the middle stands between the ends
-  EXPECT_NEAR(K(0, 2), -1.0 / (n - 1 - n / 2), round_off);
-  EXPECT_NEAR(K(1, 2), -1.0 / (n / 2), round_off);
+  EXPECT_NEAR(K(0, 2), -1.0 / (chain_masses - 1 - chain_masses / 2), round_off);
+  EXPECT_NEAR(K(1, 2), -1.0 / (chain_masses / 2), round_off);
 }
 
 TEST(CMS, ReducesDampingWithTheSameTransformation)
@@ -166,7 +166,7 @@ TEST(CMS, ReducesDampingWithTheSameTransformation)
 /// The frequencies of the free chain, mode k = 1, 2, ...
 double free_lambda(int k)
 {
-  return std::pow(2.0 * std::sin(0.5 * k * std::numbers::pi / n), 2);
+  return std::pow(2.0 * std::sin(0.5 * k * std::numbers::pi / chain_masses), 2);
 }
 
 /// G(i, i + 1) = 1 = -G(i + 1, i): gyroscopic forces; with damping besides, a diagonal.
@@ -179,7 +179,7 @@ petsc::Matrix gyroscopic(Mat like, double damping)
   for (PetscInt i = first; i < last; ++i) {
     petsc::check(MatSetValue(G, i, i, damping, INSERT_VALUES));
     if (i > 0) petsc::check(MatSetValue(G, i, i - 1, -1.0, INSERT_VALUES));
-    if (i + 1 < n) petsc::check(MatSetValue(G, i, i + 1, 1.0, INSERT_VALUES));
+    if (i + 1 < chain_masses) petsc::check(MatSetValue(G, i, i + 1, 1.0, INSERT_VALUES));
   }
   linear::testing::finish(G);
   return G;
@@ -265,20 +265,20 @@ TEST(CMS, TakesAsManyModesAsTheToleranceNeeds)
   constexpr double tolerance = 1e-4;
   Solver solver;
   const double up_to = 1.0001 * std::sqrt(free_lambda(10)) / (2.0 * std::numbers::pi);
-  PetscInt n = 0, n_in_range = 0, n_modes = 0;
+  PetscInt chain_masses = 0, n_in_range = 0, n_modes = 0;
   const PetscReal *f = nullptr, *eta2 = nullptr;
   const auto largest_estimate = [&] {
     Mat K_r = nullptr;
     petsc::check(CMSGetReducedOperators(solver.cms, &K_r, nullptr, nullptr));
-    petsc::check(CMSGetFrequencies(solver.cms, &n, &f));
-    petsc::check(CMSGetErrors(solver.cms, &n, &eta2));
+    petsc::check(CMSGetFrequencies(solver.cms, &chain_masses, &f));
+    petsc::check(CMSGetErrors(solver.cms, &chain_masses, &eta2));
     petsc::Vector diagonal;
     PetscReal lambda_left_out = 0.0;
     petsc::check(MatCreateVecs(K_r, diagonal.put(), nullptr));
     petsc::check(MatGetDiagonal(K_r, diagonal));
     petsc::check(VecMax(diagonal, nullptr, &lambda_left_out));
     double largest = 0.0;
-    for (PetscInt i = 0; i < std::min(n_in_range, n); ++i) {
+    for (PetscInt i = 0; i < std::min(n_in_range, chain_masses); ++i) {
       const double lambda = std::pow(2.0 * std::numbers::pi * f[i], 2);
       largest = std::max(largest, 0.5 * eta2[i] / (1.0 - lambda / lambda_left_out));
     }
@@ -588,7 +588,7 @@ TEST(CMS, TakesOtherTypesOfMatrices)
   petsc::check(solver.solve());
   Mat K_r = nullptr;
   petsc::check(CMSGetReducedOperators(solver.cms, &K_r, nullptr, nullptr));
-  EXPECT_NEAR(linear::replicate(K_r)(0, 1), -1.0 / (n - 1), round_off);
+  EXPECT_NEAR(linear::replicate(K_r)(0, 1), -1.0 / (chain_masses - 1), round_off);
 }
 
 /// The frequencies with operators of a type.
@@ -638,8 +638,8 @@ TEST(CMS, AddsUpEntriesThatStandTwiceInAnyOrder)
     first_of_row.back() = static_cast<PetscInt>(columns.size());
   });
   petsc::Matrix K;
-  ASSERT_EQ(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, first_of_row.data(), columns.data(),
-                                      values.data(), K.put()),
+  ASSERT_EQ(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, chain_masses, chain_masses,
+                                      first_of_row.data(), columns.data(), values.data(), K.put()),
             0);
   twice.chain.K = std::move(K);
   ASSERT_EQ(twice.solve(), 0);
@@ -658,7 +658,8 @@ TEST(CMS, RefusesAnUnsymmetricOperator)
 TEST(CMS, RefusesAValueThatIsNotFinite)
 {
   Solver solver;
-  set_value(solver.chain.M, n - 2, n - 2, std::numeric_limits<double>::quiet_NaN());
+  set_value(solver.chain.M, chain_masses - 2, chain_masses - 2,
+            std::numeric_limits<double>::quiet_NaN());
   expect_refused(solver, "M[38, 38] = nan is not finite");
 }
 
@@ -680,8 +681,8 @@ TEST(CMS, RefusesAnIndefiniteMass)
 {
   Solver solver;
   petsc::check(MatSetOption(solver.chain.M, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
-  set_value(solver.chain.M, 0, n - 1, -30.0);
-  set_value(solver.chain.M, n - 1, 0, -30.0);
+  set_value(solver.chain.M, 0, chain_masses - 1, -30.0);
+  set_value(solver.chain.M, chain_masses - 1, 0, -30.0);
   expect_refused(solver, "M is indefinite");
 }
 
@@ -709,7 +710,7 @@ TEST(CMS, NamesARowWithoutStiffness)
       expect_refused(solver, "row 17 of K is empty (empty rows: 1)");
       continue;
     }
-    solver.masters = master_set(solver.chain.K, {0, 17, n - 1});
+    solver.masters = master_set(solver.chain.K, {0, 17, chain_masses - 1});
     petsc::check(solver.solve());  // its mass moves freely
     set_value(solver.chain.M, 17, 17, 0.0);
     expect_refused(solver, "row 17 of K is empty (empty rows: 1)");
@@ -722,10 +723,11 @@ TEST(CMS, RefusesMastersWithoutSense)
     std::vector<PetscInt> masters;
     const char* words;
   };
-  for (const Mistake& mistake : {Mistake{{0, n}, "master 40 is out of range; rows are 0 to 39"},
-                                 {{-1, 3}, "master -1"},
-                                 {{5, 7, 5}, "master 5 is given twice"},
-                                 {{}, "0 masters"}}) {
+  for (const Mistake& mistake :
+       {Mistake{{0, chain_masses}, "master 40 is out of range; rows are 0 to 39"},
+        {{-1, 3}, "master -1"},
+        {{5, 7, 5}, "master 5 is given twice"},
+        {{}, "0 masters"}}) {
     Solver solver;
     const bool last_rank = petsc::rank(PETSC_COMM_WORLD) == petsc::size(PETSC_COMM_WORLD) - 1;
     petsc::IndexSet masters;
@@ -755,14 +757,14 @@ TEST(CMS, RefusesAToleranceThatItsMethodCannotKeep)
 TEST(CMS, RefusesMoreModesThanExist)
 {
   Solver solver;
-  petsc::check(CMSSetDimensions(solver.cms, n));
+  petsc::check(CMSSetDimensions(solver.cms, chain_masses));
   expect_refused(solver, "40 modes asked of 38 slaves");
 }
 
 TEST(CMS, RefusesOperatorsOfDifferentSizes)
 {
   Solver solver;
-  solver.chain.M = std::move(free_chain(n + 1).M);
+  solver.chain.M = std::move(free_chain(chain_masses + 1).M);
   expect_refused(solver, "M is 41 x 41, but K has 40 rows");
 }
 
@@ -827,7 +829,7 @@ TEST(CMS, WritesTheReducedFileThroughAViewer)
   const mbs_export::ReducedSystem file = written_file(solver.cms);
   EXPECT_EQ(file.title, "chain");
   EXPECT_EQ(file.n_masters(), 2);
-  EXPECT_EQ(file.attachment_nodes[1].number, n - 1);
+  EXPECT_EQ(file.attachment_nodes[1].number, chain_masses - 1);
   EXPECT_GT(file.certificate.eta2.size(), 0);
 }
 
@@ -841,8 +843,8 @@ TEST(CMS, WithoutANameWritesTheSameTitleInEachRun)
 TEST(CMS, SaysThatItKeepsThePartnerOfTheLastMode)
 {
   Solver solver;
-  solver.chain = free_chain(2 * n + 1);  // held in its middle: two equal halves
-  solver.masters = master_set(solver.chain.K, {0, n, 2 * n});
+  solver.chain = free_chain(2 * chain_masses + 1);  // held in its middle: two equal halves
+  solver.masters = master_set(solver.chain.K, {0, chain_masses, 2 * chain_masses});
   petsc::check(CMSSetDimensions(solver.cms, 5));
   petsc::check(solver.solve());
   const std::string path = std::filesystem::temp_directory_path() /
@@ -881,7 +883,7 @@ TEST(CMS, KeepsTheGeometryOfItsInterfaceForTheFile)
   petsc::check(CMSWrite(solver.cms, path.c_str()));
   const mbs_export::ReducedSystem file = mbs_export::read_reduced(path);
   EXPECT_EQ(file.masters[1].component, 2);
-  EXPECT_EQ(file.attachment_nodes[1].position, Eigen::Vector3d(0.1 * (n - 1), 0.0, 1.0));
+  EXPECT_EQ(file.attachment_nodes[1].position, Eigen::Vector3d(0.1 * (chain_masses - 1), 0.0, 1.0));
   MPI_Barrier(PETSC_COMM_WORLD);
   if (petsc::rank(PETSC_COMM_WORLD) == 0) std::filesystem::remove(path);
 }

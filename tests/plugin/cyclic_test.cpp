@@ -28,8 +28,8 @@ VectorXd eigenvalues(const MatrixXd& K, const MatrixXd& M)
 }
 
 /// A CMS of a sector, with two nodes in the middle and one of the low edge as masters.
-struct Solver {
-  explicit Solver(int n_sectors) : count(n_sectors), ring(n_sectors)
+struct SectorSolver {
+  explicit SectorSolver(int n_sectors) : count(n_sectors), ring(n_sectors)
   {
     const RandomRing::Matrices sector = ring.sector();
     K = distributed(sector.K);
@@ -39,9 +39,9 @@ struct Solver {
     petsc::check(set_edges(RandomRing::low(), RandomRing::high()));
     petsc::check(set_masters({14, 12, 13, 3, 4, 5, 17}));
   }
-  ~Solver() { CMSDestroy(&cms); }
-  Solver(const Solver&) = delete;
-  Solver& operator=(const Solver&) = delete;
+  ~SectorSolver() { CMSDestroy(&cms); }
+  SectorSolver(const SectorSolver&) = delete;
+  SectorSolver& operator=(const SectorSolver&) = delete;
 
   PetscErrorCode set_edges(const std::vector<PetscInt>& low, const std::vector<PetscInt>& high)
   {
@@ -58,7 +58,7 @@ struct Solver {
   CMS cms = nullptr;
 };
 
-std::string message(PetscErrorCode code)
+std::string message_of(PetscErrorCode code)
 {
   const char* specific = petsc::error_texts(PetscErrorMessage, code).specific;
   return specific != nullptr ? specific : "";
@@ -90,7 +90,7 @@ MatrixXd replicated(Mat A)
 TEST(CMSCyclic, HarmonicsHaveTheEigenvaluesOfTheWholeRingAndNoOthers)
 {
   for (const int count : {2, 3, 6, 7}) {
-    Solver solver(count);
+    SectorSolver solver(count);
     std::vector<double> found;
     for (PetscInt order = 0; order <= count / 2; ++order) {
       petsc::check(CMSSetHarmonic(solver.cms, order));
@@ -111,7 +111,7 @@ TEST(CMSCyclic, HarmonicsHaveTheEigenvaluesOfTheWholeRingAndNoOthers)
 TEST(CMSCyclic, ReducesTheWholeRingToMotionsOfAHarmonic)
 {
   for (const int order : {0, 1, 2, 3}) {
-    Solver solver(6);
+    SectorSolver solver(6);
     petsc::check(CMSSetHarmonic(solver.cms, order));
     petsc::check(CMSSetDimensions(solver.cms, 6));
     petsc::check(CMSSolve(solver.cms));
@@ -147,7 +147,7 @@ TEST(CMSCyclic, AHarmonicWithAllItsModesHasTheFrequenciesOfTheRing)
   const VectorXd expected = eigenvalues(whole.K, whole.M);
   int n_zero = 0;
   for (const int order : {0, 1, 2, 3}) {
-    Solver solver(6);
+    SectorSolver solver(6);
     petsc::check(CMSSetHarmonic(solver.cms, order));
     Mat K_n = nullptr;
     PetscInt n_rows = 0, n_masters = 0, n = 0;
@@ -176,7 +176,7 @@ TEST(CMSCyclic, AHarmonicWithAllItsModesHasTheFrequenciesOfTheRing)
 TEST(CMSCyclic, HoldsRowsOfTheSectorInBothPhases)
 {
   for (const int order : {0, 1}) {
-    Solver solver(6);
+    SectorSolver solver(6);
     petsc::check(CMSSetHarmonic(solver.cms, order));
     petsc::check(CMSSetHeld(solver.cms, shared_out({3, 4, 5})));
     petsc::check(CMSSetDimensions(solver.cms, 12));
@@ -204,7 +204,7 @@ TEST(CMSCyclic, AHubIsAMasterOfTheHarmonicsThatMoveIt)
 {
   const std::vector<std::vector<PetscInt>> moves{{2}, {0, 1}, {}, {}};
   for (int order = 0; order <= 3; ++order) {
-    Solver solver(6);
+    SectorSolver solver(6);
     petsc::check(solver.set_masters({2, 1, 0, 15, 16, 17}));
     petsc::check(CMSSetHarmonic(solver.cms, order));
     petsc::check(CMSSetUp(solver.cms));
@@ -297,7 +297,8 @@ TEST(CMSCyclic, ANodeOnAnObliqueAxisIsHeldInAllItsRowsOrRefused)
       petsc::check(CMSSetHeld(sector.cms, shared_out(some)));
       const PetscErrorCode code = CMSSolve(sector.cms);
       ASSERT_NE(code, 0) << "harmonic " << order << ", first held " << some.front();
-      EXPECT_NE(message(code).find("name all of them or none"), std::string::npos) << message(code);
+      EXPECT_NE(message_of(code).find("name all of them or none"), std::string::npos)
+          << message_of(code);
     }
     petsc::check(CMSSetHeld(sector.cms, shared_out({2, 0, 1})));
     petsc::check(CMSSolve(sector.cms));
@@ -318,7 +319,7 @@ TEST(CMSCyclic, ANodeOnAnObliqueAxisIsHeldInAllItsRowsOrRefused)
 TEST(CMSCyclic, WithoutMastersEveryMethodGivesItsModesAlone)
 {
   for (const char* method : {CMSGUYAN, CMSCRAIGBAMPTON, CMSMIXED, CMSRUBIN}) {
-    Solver solver(6);
+    SectorSolver solver(6);
     petsc::check(solver.set_masters({0, 1, 2}));
     petsc::check(CMSSetHarmonic(solver.cms, 2));
     petsc::check(CMSSetType(solver.cms, method));
@@ -336,7 +337,7 @@ TEST(CMSCyclic, WithoutMastersEveryMethodGivesItsModesAlone)
 
 TEST(CMSCyclic, GivesMatricesThatEigensolversTake)
 {
-  Solver solver(7);
+  SectorSolver solver(7);
   petsc::check(CMSRegisterEPS());
   petsc::check(CMSSetHarmonic(solver.cms, 2));
   Mat K = nullptr, M = nullptr;
@@ -353,43 +354,44 @@ TEST(CMSCyclic, RefusesEdgesThatDoNotMatch)
 {
   using Rows = std::vector<PetscInt>;
   const auto refused = [](const std::string& words, auto change) {
-    Solver solver(6);
+    SectorSolver solver(6);
     change(solver);
     const PetscErrorCode code = CMSSolve(solver.cms);
     ASSERT_NE(code, 0) << words;
-    EXPECT_NE(message(code).find(words), std::string::npos) << message(code);
+    EXPECT_NE(message_of(code).find(words), std::string::npos) << message_of(code);
   };
   Rows longer = RandomRing::high();
   longer.push_back(20);
   refused("the low edge has 12 rows and the high edge 13",
-          [&](Solver& s) { petsc::check(s.set_edges(RandomRing::low(), longer)); });
-  refused("the edges have 2 rows, which the block size 3", [](Solver& s) {
+          [&](SectorSolver& s) { petsc::check(s.set_edges(RandomRing::low(), longer)); });
+  refused("the edges have 2 rows, which the block size 3", [](SectorSolver& s) {
     petsc::check(s.set_edges({3, 4}, {21, 22}));
   });
-  refused("row 6 is in both edges", [](Solver& s) {
+  refused("row 6 is in both edges", [](SectorSolver& s) {
     petsc::check(s.set_edges({3, 4, 5, 6, 7, 8}, {6, 7, 8, 9, 10, 11}));
   });
-  refused("row 3 is twice in the low edge", [](Solver& s) {
+  refused("row 3 is twice in the low edge", [](SectorSolver& s) {
     petsc::check(s.set_edges({3, 4, 3}, {21, 22, 23}));
   });
-  refused("row 30 of the high edge is out of range; rows are 0 to 29", [](Solver& s) {
+  refused("row 30 of the high edge is out of range; rows are 0 to 29", [](SectorSolver& s) {
     petsc::check(s.set_edges({3, 4, 5}, {21, 22, 30}));
   });
   refused("harmonic 4 of 6 sectors; give 0 to 3",
-          [](Solver& s) { petsc::check(CMSSetHarmonic(s.cms, 4)); });
-  refused("harmonic -1 of 6 sectors", [](Solver& s) { petsc::check(CMSSetHarmonic(s.cms, -1)); });
-  refused("5 times the rotation is no whole turn", [](Solver& s) {
+          [](SectorSolver& s) { petsc::check(CMSSetHarmonic(s.cms, 4)); });
+  refused("harmonic -1 of 6 sectors",
+          [](SectorSolver& s) { petsc::check(CMSSetHarmonic(s.cms, -1)); });
+  refused("5 times the rotation is no whole turn", [](SectorSolver& s) {
     s.count = 5;
     petsc::check(s.set_edges(RandomRing::low(), RandomRing::high()));
   });
-  refused("master 21 is in the high edge; give row 3 of the low edge", [](Solver& s) {
+  refused("master 21 is in the high edge; give row 3 of the low edge", [](SectorSolver& s) {
     petsc::check(s.set_masters({14, 21}));
   });
-  refused("harmonic 1 without sectors", [](Solver& s) {
+  refused("harmonic 1 without sectors", [](SectorSolver& s) {
     petsc::check(CMSSetCyclic(s.cms, 0, nullptr, nullptr, 1, nullptr));
     petsc::check(CMSSetHarmonic(s.cms, 1));
   });
-  refused("the rotation is not orthogonal", [](Solver& s) {
+  refused("the rotation is not orthogonal", [](SectorSolver& s) {
     std::vector<double> R = s.ring.rotation();
     R[0] += 0.1;
     petsc::check(CMSSetCyclic(s.cms, 6, shared_out(RandomRing::low()),
@@ -399,22 +401,22 @@ TEST(CMSCyclic, RefusesEdgesThatDoNotMatch)
 
 TEST(CMSCyclic, NamesTheRowOfTheSectorThatNothingHolds)
 {
-  Solver solver(6);
+  SectorSolver solver(6);
   MatrixXd K = solver.ring.sector().K;
   K.row(16).setZero();
   K.col(16).setZero();
   const petsc::Matrix without = distributed(K);
   petsc::check(CMSSetOperators(solver.cms, without, solver.M, nullptr));
   petsc::check(CMSSetHarmonic(solver.cms, 1));
-  const std::string words = message(CMSSolve(solver.cms));
+  const std::string words = message_of(CMSSolve(solver.cms));
   EXPECT_NE(words.find("row 16 of K, in x is empty (empty rows: 2)"), std::string::npos) << words;
 }
 
 TEST(CMSCyclic, GivesTheRowsAskedForAndDamping)
 {
-  Solver all(6), some(6);
+  SectorSolver all(6), some(6);
   const std::vector<PetscInt> rows{29, 0, 14, 4};
-  for (Solver* solver : {&all, &some}) {
+  for (SectorSolver* solver : {&all, &some}) {
     petsc::check(CMSSetOperators(solver->cms, solver->K, solver->M, solver->K));
     petsc::check(CMSSetHarmonic(solver->cms, 1));
   }
@@ -441,7 +443,7 @@ TEST(CMSCyclic, GivesTheRowsAskedForAndDamping)
 TEST(CMSCyclic, ObeysItsPrefixAndWritesBothPhases)
 {
   petsc::check(PetscOptionsInsertString(nullptr, "-wheel_cms_harmonic 2 -cms_harmonic 1"));
-  Solver solver(6);
+  SectorSolver solver(6);
   petsc::check(PetscObjectSetName(reinterpret_cast<PetscObject>(solver.cms), "wheel"));
   petsc::check(CMSSetOptionsPrefix(solver.cms, "wheel_"));
   petsc::check(CMSSetFromOptions(solver.cms));

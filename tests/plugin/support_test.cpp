@@ -17,12 +17,12 @@ namespace {
 using linear::testing::free_chain;
 using linear::testing::master_set;
 
-constexpr PetscInt n = 40;  // masses
+constexpr PetscInt n_masses = 40;  // masses
 
 /// A CMS of the free chain with both ends as masters, of which the first is held.
 struct HeldChain {
-  linear::testing::Chain chain = free_chain(n);
-  petsc::IndexSet masters = master_set(chain.K, {0, n - 1});
+  linear::testing::Chain chain = free_chain(n_masses);
+  petsc::IndexSet masters = master_set(chain.K, {0, n_masses - 1});
   petsc::IndexSet held = master_set(chain.K, {0});
   CMS cms = nullptr;
 
@@ -42,11 +42,11 @@ struct HeldChain {
 /// sqrt(lambda) / (2 pi) of the chain with one end held, k = 1, 2, ...
 double exact_Hz(int k)
 {
-  return std::sin((2 * k - 1) * std::numbers::pi / (2.0 * (2 * n - 1))) / std::numbers::pi;
+  return std::sin((2 * k - 1) * std::numbers::pi / (2.0 * (2 * n_masses - 1))) / std::numbers::pi;
 }
 
 /// The largest relative error of the frequencies that are certified.
-double largest_error(CMS cms, PetscInt& n_found)
+double largest_error_of_cms(CMS cms, PetscInt& n_found)
 {
   const PetscReal* f = nullptr;
   petsc::check(CMSGetFrequencies(cms, &n_found, &f));
@@ -83,7 +83,7 @@ TEST(CMSHeld, MayBeTakenAway)
   petsc::check(CMSGetFrequencies(held.cms, &n_found, &f));
   ASSERT_GE(n_found, 6);
   for (PetscInt i = 0; i < 6; ++i) {
-    const double free = std::sin(0.5 * (i + 1) * std::numbers::pi / n) / std::numbers::pi;
+    const double free = std::sin(0.5 * (i + 1) * std::numbers::pi / n_masses) / std::numbers::pi;
     EXPECT_NEAR(f[i] / free, 1.0, 1e-10);
   }
 }
@@ -94,7 +94,7 @@ TEST(CMSMixed, HasTheFrequenciesOfTheFullModelUnderTheSupport)
   petsc::check(CMSSetDimensions(mixed.cms, 6));
   petsc::check(CMSSolve(mixed.cms));
   PetscInt n_found = 0, n_masters = 0, n_modes = 0;
-  EXPECT_LT(largest_error(mixed.cms, n_found), 1e-10);
+  EXPECT_LT(largest_error_of_cms(mixed.cms, n_found), 1e-10);
   EXPECT_EQ(n_found, 6);
   petsc::check(CMSGetDimensions(mixed.cms, &n_masters, &n_modes));
   EXPECT_EQ(n_masters, 2);
@@ -107,7 +107,7 @@ TEST(CMSAuto, TakesTheModesOfTheRange)
   petsc::check(CMSSetTolerance(chosen.cms, 1e-4, 0.5 * (exact_Hz(7) + exact_Hz(8))));
   petsc::check(CMSSolve(chosen.cms));
   PetscInt n_found = 0;
-  EXPECT_LT(largest_error(chosen.cms, n_found), 1e-4);
+  EXPECT_LT(largest_error_of_cms(chosen.cms, n_found), 1e-4);
   EXPECT_EQ(n_found, 7);
 }
 

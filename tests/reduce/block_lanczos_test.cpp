@@ -28,7 +28,7 @@ struct FixedChain {
   Blocks K, M;
 };
 
-double exact(int k, int n)
+double exact_of_chain(int k, int n)
 {
   return 4.0 * std::pow(std::sin(0.5 * k * std::numbers::pi / (n + 1)), 2);
 }
@@ -36,7 +36,7 @@ double exact(int k, int n)
 void expect_exact(const linear::EigenPairs& pairs, int n)
 {
   for (std::size_t i = 0; i < pairs.lambda.size(); ++i) {
-    const double lambda = exact(static_cast<int>(i) + 1, n);
+    const double lambda = exact_of_chain(static_cast<int>(i) + 1, n);
     // The error of lambda is the square of the residual; what remains is cond(K) = 4 n^2 / pi^2
     // times round-off.
     EXPECT_NEAR(pairs.lambda[i], lambda, 1e-11 * lambda) << "pair " << i + 1;
@@ -77,7 +77,8 @@ TEST(BlockLanczos, GoesOnWhereItStoppedWhenMoreAreAsked)
     const PetscInt n_alone = linear::block_lanczos(factor.factor(), c.M.ss, options).n_solves;
     EXPECT_LE(lanczos.n_solves(), n_alone + (subspace > 0 ? n_first : options.block_size));
     ASSERT_EQ(lanczos.n_pairs(), 20);
-    for (int i = 0; i < 20; ++i) EXPECT_NEAR(lanczos.lambda(i) / exact(i + 1, 200), 1.0, 1e-11);
+    for (int i = 0; i < 20; ++i)
+      EXPECT_NEAR(lanczos.lambda(i) / exact_of_chain(i + 1, 200), 1.0, 1e-11);
     const petsc::Matrix X = lanczos.vectors(3, 15);
     const Eigen::MatrixXd I = linear::inner_product(X, X);  // M = I
     for (PetscInt i = 0; i < 12; ++i)

@@ -17,54 +17,59 @@
 namespace chladni::reduce {
 namespace {
 
-constexpr PetscInt n = 40;  // masses
+constexpr PetscInt n_of_free_chain = 40;  // masses
 
 /// Eigenvalue k = 0, 1, ... of the free chain.
 double free_eigenvalue(int k)
 {
-  return std::pow(2.0 * std::sin(0.5 * k * std::numbers::pi / n), 2);
+  return std::pow(2.0 * std::sin(0.5 * k * std::numbers::pi / n_of_free_chain), 2);
 }
 
 TEST(EigenvaluesBelow, CountsThoseOfTheFreeChain)
 {
-  const linear::testing::Chain chain = linear::testing::free_chain(n);
+  const linear::testing::Chain chain = linear::testing::free_chain(n_of_free_chain);
   for (const int k : {1, 7, 39}) {
     const double sigma = 0.5 * (free_eigenvalue(k - 1) + free_eigenvalue(k));
     for (const double gap : {0.0, 3e-5})  // by MUMPS, and without pivoting
       EXPECT_EQ(linear::eigenvalues_below(chain.K, chain.M, {sigma, gap}), k);
   }
-  EXPECT_EQ(linear::eigenvalues_below(chain.K, chain.M, {5.0, 3e-5}), n);  // all are below 4
+  EXPECT_EQ(linear::eigenvalues_below(chain.K, chain.M, {5.0, 3e-5}),
+            n_of_free_chain);  // all are below 4
 }
 
 TEST(EigenvaluesBelow, CountsWithoutTheHeldDofs)
 {
-  const linear::testing::Chain chain = linear::testing::free_chain(n);
+  const linear::testing::Chain chain = linear::testing::free_chain(n_of_free_chain);
   const auto held_eigenvalue = [](int k) {  // n - 2 masses between fixed ends
-    return std::pow(2.0 * std::sin(0.5 * k * std::numbers::pi / (n - 1)), 2);
+    return std::pow(2.0 * std::sin(0.5 * k * std::numbers::pi / (n_of_free_chain - 1)), 2);
   };
   const double sigma = 0.5 * (held_eigenvalue(9) + held_eigenvalue(10));
-  EXPECT_EQ(linear::eigenvalues_below(chain.K, chain.M, {sigma, 3e-5}, {.held = {n - 1, 0}}), 9);
+  EXPECT_EQ(linear::eigenvalues_below(chain.K, chain.M, {sigma, 3e-5},
+                                      {.held = {n_of_free_chain - 1, 0}}),
+            9);
 }
 
 TEST(EigenvaluesBelow, TakeOverTheEliminationOfAFactorAndLeaveItAsItIs)
 {
-  const linear::testing::Chain chain = linear::testing::free_chain(n);
+  const linear::testing::Chain chain = linear::testing::free_chain(n_of_free_chain);
   const auto fixed_eigenvalue = [](int n_masses, int k) {  // between fixed ends
     return std::pow(2.0 * std::sin(0.5 * k * std::numbers::pi / (n_masses + 1)), 2);
   };
   constexpr int middle = 12;
   const DofPartition dofs =
-      partition(chain.K, linear::testing::master_set(chain.K, {0, middle, n - 1}));
+      partition(chain.K, linear::testing::master_set(chain.K, {0, middle, n_of_free_chain - 1}));
   const Blocks K = split(chain.K, dofs), M = split(chain.M, dofs);
   const linear::Factorization K_ss = linear::factorize(K.ss);
   const double condition = linear::condition_estimate(K_ss);
-  const double sigma = 0.5 * (fixed_eigenvalue(n - 2, 9) + fixed_eigenvalue(n - 2, 10));
-  EXPECT_EQ(linear::eigenvalues_below(
-                chain.K, chain.M, {sigma, 3e-5},
-                {.held = {n - 1, 0}, .factor = K_ss.factor(), .factored = all_slaves(dofs)}),
+  const double sigma =
+      0.5 * (fixed_eigenvalue(n_of_free_chain - 2, 9) + fixed_eigenvalue(n_of_free_chain - 2, 10));
+  EXPECT_EQ(linear::eigenvalues_below(chain.K, chain.M, {sigma, 3e-5},
+                                      {.held = {n_of_free_chain - 1, 0},
+                                       .factor = K_ss.factor(),
+                                       .factored = all_slaves(dofs)}),
             9);
   int n_below = 0;
-  for (const int n_masses : {middle - 1, n - middle - 2})
+  for (const int n_masses : {middle - 1, n_of_free_chain - middle - 2})
     for (int k = 1; k <= n_masses; ++k) n_below += fixed_eigenvalue(n_masses, k) < sigma ? 1 : 0;
   EXPECT_EQ(linear::eigenvalues_below(K.ss, M.ss, {sigma, 3e-5}, {.factor = K_ss.factor()}),
             n_below);
@@ -81,12 +86,14 @@ TEST(EigenvaluesBelow, AreCountedWherePivotsVanishOrNearlySo)
 
 TEST(ConditionEstimate, IsExactForTheChainBetweenFixedEnds)
 {
-  const linear::testing::Chain chain = linear::testing::free_chain(n + 1);
-  const DofPartition dofs = partition(chain.K, linear::testing::master_set(chain.K, {0, n}));
+  const linear::testing::Chain chain = linear::testing::free_chain(n_of_free_chain + 1);
+  const DofPartition dofs =
+      partition(chain.K, linear::testing::master_set(chain.K, {0, n_of_free_chain}));
   const Blocks K = split(chain.K, dofs);
   // |K|_1 = 4; column j of the inverse sums to j (m + 1 - j) / 2, at most (m + 1)^2 / 8, m = n - 1.
-  EXPECT_NEAR(linear::condition_estimate(linear::factorize(K.ss)), 4.0 * n * n / 8.0,
-              1e-9 * n * n);  // round-off
+  EXPECT_NEAR(linear::condition_estimate(linear::factorize(K.ss)),
+              4.0 * n_of_free_chain * n_of_free_chain / 8.0,
+              1e-9 * n_of_free_chain * n_of_free_chain);  // round-off
 }
 
 /// A symmetric matrix with eigenvalues 1 and 10 and its Ritz value in the direction (cos, sin).
@@ -102,7 +109,7 @@ struct TwoByTwo {
 };
 
 /// [1 x 1], or diagonal.
-Eigen::MatrixXd diagonal(const std::vector<double>& values)
+Eigen::MatrixXd diagonal_matrix(const std::vector<double>& values)
 {
   const auto k = static_cast<PetscInt>(values.size());
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(k, k);
@@ -113,7 +120,7 @@ Eigen::MatrixXd diagonal(const std::vector<double>& values)
 TEST(ErrorBounds, AreSharpWhereTheNextEigenvalueIsKnown)
 {
   const TwoByTwo pencil{.angle = 0.1};
-  const auto bounds = error_bounds({pencil.ritz()}, diagonal({pencil.eta2()}), 10.0);
+  const auto bounds = error_bounds({pencil.ritz()}, diagonal_matrix({pencil.eta2()}), 10.0);
   // Temple's inequality is an equation for a vector out of two eigenvectors; rounding comes on top.
   EXPECT_GE(bounds[0], pencil.ritz() - 1.0);
   EXPECT_NEAR(bounds[0], pencil.ritz() - 1.0, 1e-14);
@@ -179,7 +186,8 @@ TEST(ErrorBounds, OfManyValuesAreSharpInTheGapThatWasCounted)
 TEST(ErrorBounds, KeepTheirDigitsOverTwentyFourDecades)
 {
   const std::vector<double> lambda{1e-12, 1.0, 1e6, 1e12};
-  for (const double bound : error_bounds(lambda, diagonal({1e-14, 1e-14, 1e-14, 1e-14}), 2e12))
+  for (const double bound :
+       error_bounds(lambda, diagonal_matrix({1e-14, 1e-14, 1e-14, 1e-14}), 2e12))
     EXPECT_LE(bound, 4e-14);
 }
 
@@ -195,14 +203,15 @@ TEST(ErrorBounds, OfTheLastValueReachBeyondSigma)
   const double eta2 = r_s * r_s / K[2] / lambda / mass;
   const double b = K[0] / m[0] + K[2] / m[1], c = (K[0] * K[2] - K[1] * K[1]) / (m[0] * m[1]);
   const double exact = 2.0 * c / (b + std::sqrt(b * b - 4.0 * c));
-  EXPECT_GE(error_bounds({lambda}, diagonal({eta2}), 1.01 * lambda)[0], lambda / exact - 1.0);
+  EXPECT_GE(error_bounds({lambda}, diagonal_matrix({eta2}), 1.01 * lambda)[0],
+            lambda / exact - 1.0);
 }
 
 TEST(CountModes, RefusesACountBelowWhatIsThereAndSaysWhatToLookFor)
 {
   try {
     count_modes({.lambda = {1.0, 2.0},
-                 .residuals = diagonal({1e-8, 1e-8}),
+                 .residuals = diagonal_matrix({1e-8, 1e-8}),
                  .n_zero = 0,
                  .comm = PETSC_COMM_SELF},
                 [](double) { return 1; });
@@ -221,7 +230,7 @@ TEST(CountModes, FindsTheModeThatIsMissing)
   const auto below = [&](double sigma) {
     return static_cast<int>(std::ranges::lower_bound(full, sigma) - full.begin());
   };
-  const Eigen::MatrixXd tiny = diagonal(std::vector<double>(5, 1e-8));
+  const Eigen::MatrixXd tiny = diagonal_matrix(std::vector<double>(5, 1e-8));
   const auto whole = count_modes({.lambda = {1.0, 2.0, 4.0, 7.0, 11.0},
                                   .residuals = tiny,
                                   .n_zero = 0,
@@ -244,7 +253,7 @@ TEST(CountModes, FindsTheModeThatIsMissing)
 TEST(CountModes, CountsRigidMotionsAsFound)
 {
   const auto all = count_modes(
-      {.lambda = {1.0}, .residuals = diagonal({1e-8}), .n_zero = 6, .comm = PETSC_COMM_SELF},
+      {.lambda = {1.0}, .residuals = diagonal_matrix({1e-8}), .n_zero = 6, .comm = PETSC_COMM_SELF},
       [](double sigma) { return sigma > 1.0 ? 7 : 6; });
   EXPECT_EQ(all.range.missing(), 0);
 }

@@ -21,13 +21,13 @@ namespace {
 using linear::testing::free_chain;
 using linear::testing::master_set;
 
-constexpr PetscInt n = 40;  // masses
+constexpr PetscInt n_of_chain = 40;  // masses
 constexpr double round_off = 1e-12;
 
 /// The chain reduced to its two ends.
 struct Reduction {
-  linear::testing::Chain chain = free_chain(n);
-  DofPartition dofs = partition(chain.K, master_set(chain.K, {0, n - 1}));
+  linear::testing::Chain chain = free_chain(n_of_chain);
+  DofPartition dofs = partition(chain.K, master_set(chain.K, {0, n_of_chain - 1}));
   Blocks K = split(chain.K, dofs);
   Blocks M = split(chain.M, dofs);
   linear::Factorization K_ss = linear::factorize(K.ss);
@@ -42,12 +42,12 @@ CraigBamptonBasis craig_bampton(const Reduction& r, int n_modes)
 /// Frequency of mode k = 1, 2, ... of m = n - 2 masses between fixed ends.
 double fixed_chain_frequency(int k)
 {
-  return 2.0 * std::sin(0.5 * k * std::numbers::pi / (n - 1));
+  return 2.0 * std::sin(0.5 * k * std::numbers::pi / (n_of_chain - 1));
 }
 
 std::vector<PetscInt> all_dofs()
 {
-  std::vector<PetscInt> dofs(n);
+  std::vector<PetscInt> dofs(n_of_chain);
   std::iota(dofs.begin(), dofs.end(), 0);
   return dofs;
 }
@@ -57,8 +57,8 @@ TEST(ConstraintModes, InterpolateLinearlyBetweenTheEnds)
   const Reduction r;
   const Eigen::MatrixXd Q =
       basis_rows({.Psi = constraint_modes(r.K_ss, r.K), .modes = {}}, r.dofs, all_dofs());
-  for (PetscInt i = 0; i < n; ++i) {
-    EXPECT_NEAR(Q(i, 1), double(i) / (n - 1), round_off);
+  for (PetscInt i = 0; i < n_of_chain; ++i) {
+    EXPECT_NEAR(Q(i, 1), double(i) / (n_of_chain - 1), round_off);
     EXPECT_NEAR(Q(i, 0) + Q(i, 1), 1.0, round_off);  // rigid translation
   }
 }
@@ -66,18 +66,18 @@ TEST(ConstraintModes, InterpolateLinearlyBetweenTheEnds)
 /// Two free chains of n masses that lie into each other, and their translations as a sum and as a
 /// difference.
 struct TwoChains {
-  petsc::Matrix K = linear::testing::empty(2 * n), R;
+  petsc::Matrix K = linear::testing::empty(2 * n_of_chain), R;
 
   TwoChains()
   {
-    petsc::check(
-        MatCreateDense(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, 2 * n, 2, nullptr, R.put()));
+    petsc::check(MatCreateDense(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, 2 * n_of_chain, 2,
+                                nullptr, R.put()));
     PetscInt first = 0, last = 0;
     petsc::check(MatGetOwnershipRange(K, &first, &last));
     for (PetscInt i = first; i < last; ++i) {
-      petsc::check(MatSetValue(K, i, i, (i > 1) + (i + 2 < 2 * n), INSERT_VALUES));
+      petsc::check(MatSetValue(K, i, i, (i > 1) + (i + 2 < 2 * n_of_chain), INSERT_VALUES));
       if (i > 1) petsc::check(MatSetValue(K, i, i - 2, -1.0, INSERT_VALUES));
-      if (i + 2 < 2 * n) petsc::check(MatSetValue(K, i, i + 2, -1.0, INSERT_VALUES));
+      if (i + 2 < 2 * n_of_chain) petsc::check(MatSetValue(K, i, i + 2, -1.0, INSERT_VALUES));
       petsc::check(MatSetValue(R, i, 0, 1.0, INSERT_VALUES));
       petsc::check(MatSetValue(R, i, 1, i % 2 == 0 ? 1.0 : -1.0, INSERT_VALUES));
     }
@@ -89,17 +89,18 @@ struct TwoChains {
 TEST(RigidConstraintModes, CarryMotionsExactlyAndKeepTheZerosOfWhatIsNotCoupled)
 {
   const TwoChains chains;
-  const DofPartition dofs = partition(chains.K, master_set(chains.K, {0, 1, 2 * n - 2, 2 * n - 1}));
+  const DofPartition dofs =
+      partition(chains.K, master_set(chains.K, {0, 1, 2 * n_of_chain - 2, 2 * n_of_chain - 1}));
   const Blocks K = split(chains.K, dofs);
   petsc::Matrix Psi = constraint_modes(linear::factorize(K.ss), K);
   petsc::check(MatScale(Psi, 1.0 + 1e-9));  // an error that the correction has to take out
   const CraigBamptonBasis Q{
       .Psi = with_rigid_motions(std::move(Psi), {.R = chains.R, .dofs = dofs, .K = K}),
       .modes = {}};
-  std::vector<PetscInt> all(2 * n);
+  std::vector<PetscInt> all(2 * n_of_chain);
   std::iota(all.begin(), all.end(), 0);
   const Eigen::MatrixXd rows = basis_rows(Q, dofs, all);
-  for (PetscInt i = 0; i < 2 * n; ++i) {
+  for (PetscInt i = 0; i < 2 * n_of_chain; ++i) {
     const PetscInt own = i % 2, other = 1 - own;  // columns 0 and 2 belong to the first chain
     EXPECT_NEAR(rows(i, own) + rows(i, own + 2), 1.0, 1e-15) << i;
     EXPECT_EQ(rows(i, other), 0.0) << i;
@@ -149,15 +150,17 @@ TEST(FixedInterfaceModes, AreOrthonormalInTheMass)
 TEST(FixedInterfaceModes, RefuseMoreModesThanExist)
 {
   const Reduction r;
-  EXPECT_THROW(fixed_interface_modes(r.K_ss, r.M.ss, {.modes = n, .cutoff_Hz = {}}), Error);
+  EXPECT_THROW(fixed_interface_modes(r.K_ss, r.M.ss, {.modes = n_of_chain, .cutoff_Hz = {}}),
+               Error);
 }
 
 TEST(FixedInterfaceModes, KeepTheTwoPartnersOfADoubleModeTogether)
 {
   // Two equal chains that share the masters of a third between them: masters hold both ends of
   // each.
-  const linear::testing::Chain chain = free_chain(2 * n - 1);
-  const DofPartition dofs = partition(chain.K, master_set(chain.K, {0, n - 1, 2 * n - 2}));
+  const linear::testing::Chain chain = free_chain(2 * n_of_chain - 1);
+  const DofPartition dofs =
+      partition(chain.K, master_set(chain.K, {0, n_of_chain - 1, 2 * n_of_chain - 2}));
   const Blocks K = split(chain.K, dofs);
   const Blocks M = split(chain.M, dofs);
   const auto modes =
@@ -171,16 +174,18 @@ TEST(FixedInterfaceModes, KeepNeighboursTogetherWhereTheCutoffLiesBetweenThem)
   // above that of the first.
   constexpr double stiffer = 1.0 + 1e-4;
   const auto spring = [](PetscInt i) {  // from mass i to i + 1
-    return i < 0 || i >= 2 * n - 2 ? 0.0 : (i < n - 1 ? 1.0 : stiffer);
+    return i < 0 || i >= 2 * n_of_chain - 2 ? 0.0 : (i < n_of_chain - 1 ? 1.0 : stiffer);
   };
-  const petsc::Matrix K_all = linear::testing::matrix(2 * n - 1, 3, [&](PetscInt i) {
+  const petsc::Matrix K_all = linear::testing::matrix(2 * n_of_chain - 1, 3, [&](PetscInt i) {
     linear::testing::Row row{{i, spring(i - 1) + spring(i)}};
     if (i > 0) row.emplace_back(i - 1, -spring(i - 1));
-    if (i < 2 * n - 2) row.emplace_back(i + 1, -spring(i));
+    if (i < 2 * n_of_chain - 2) row.emplace_back(i + 1, -spring(i));
     return row;
   });
-  const petsc::Matrix M_all = linear::testing::diagonal(2 * n - 1, [](PetscInt) { return 1.0; });
-  const DofPartition dofs = partition(K_all, master_set(K_all, {0, n - 1, 2 * n - 2}));
+  const petsc::Matrix M_all =
+      linear::testing::diagonal(2 * n_of_chain - 1, [](PetscInt) { return 1.0; });
+  const DofPartition dofs =
+      partition(K_all, master_set(K_all, {0, n_of_chain - 1, 2 * n_of_chain - 2}));
   const Blocks K = split(K_all, dofs), M = split(M_all, dofs);
   const linear::Factorization K_ss = linear::factorize(K.ss);
   for (const int k : {1, 3, 8}) {
@@ -274,11 +279,11 @@ TEST(Project, GivesTheGuyanMatricesOfTheChain)
 {
   const Reduction r;
   const ReducedModel guyan = project({.Psi = constraint_modes(r.K_ss, r.K), .modes = {}}, r.K, r.M);
-  const double k = 1.0 / (n - 1);  // springs in series
+  const double k = 1.0 / (n_of_chain - 1);  // springs in series
   EXPECT_NEAR(guyan.K(0, 0), k, round_off);
   EXPECT_NEAR(guyan.K(0, 1), -k, round_off);
   const double total = guyan.M(0, 0) + 2.0 * guyan.M(0, 1) + guyan.M(1, 1);
-  EXPECT_NEAR(total, n, 100 * round_off);  // all of the mass moves with the two ends
+  EXPECT_NEAR(total, n_of_chain, 100 * round_off);  // all of the mass moves with the two ends
 }
 
 TEST(Project, KeepsTheBlocksThatMultiplicationWouldGive)
@@ -290,8 +295,8 @@ TEST(Project, KeepsTheBlocksThatMultiplicationWouldGive)
   const auto product = [&](Mat A, PetscInt i, PetscInt j) {
     const Eigen::MatrixXd full = linear::replicate(A);
     double sum = 0.0;
-    for (PetscInt a = 0; a < n; ++a)
-      for (PetscInt b = 0; b < n; ++b) sum += Q(a, i) * full(a, b) * Q(b, j);
+    for (PetscInt a = 0; a < n_of_chain; ++a)
+      for (PetscInt b = 0; b < n_of_chain; ++b) sum += Q(a, i) * full(a, b) * Q(b, j);
     return sum;
   };
   for (PetscInt i = 0; i < reduced.K.rows(); ++i) {
@@ -306,13 +311,13 @@ TEST(Project, KeepsTheBlocksThatMultiplicationWouldGive)
 /// gyroscopic pair.
 petsc::Matrix dampers()
 {
-  petsc::Matrix C = linear::testing::empty(n);
+  petsc::Matrix C = linear::testing::empty(n_of_chain);
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(C, &first, &last));
   const auto set = [&](PetscInt i, PetscInt j, double value) {
     if (i >= first && i < last) petsc::check(MatSetValue(C, i, j, value, INSERT_VALUES));
   };
-  for (PetscInt i = 0; i + 1 < n; i += 3) {  // each pair apart from the next
+  for (PetscInt i = 0; i + 1 < n_of_chain; i += 3) {  // each pair apart from the next
     const double c = 0.1 + 0.01 * i;
     set(i, i, c);
     set(i + 1, i + 1, c);
@@ -338,8 +343,8 @@ TEST(ProjectDamping, IsTheTripleProductWithTheBasis)
   for (PetscInt a = 0; a < 8; ++a) {
     for (PetscInt b = 0; b < 8; ++b) {
       double exact = 0.0;
-      for (PetscInt i = 0; i < n; ++i)
-        for (PetscInt j = 0; j < n; ++j) exact += Q(i, a) * C_all(i, j) * Q(j, b);
+      for (PetscInt i = 0; i < n_of_chain; ++i)
+        for (PetscInt j = 0; j < n_of_chain; ++j) exact += Q(i, a) * C_all(i, j) * Q(j, b);
       EXPECT_NEAR(C_r(a, b), exact, round_off);
     }
   }

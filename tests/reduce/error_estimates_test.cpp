@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 using linear::testing::free_chain;
 using linear::testing::master_set;
 
-constexpr PetscInt n = 60;
+constexpr PetscInt n_estimated = 60;
 
 /// The first pairs of a reduced pencil without its first coordinate.
 ReducedPairs lowest(const ReducedModel& model, PetscInt n_pairs)
@@ -44,8 +44,8 @@ struct HeldChain {
       : Q_CB{.Psi = constraint_modes(K_ss, K),
              .modes = fixed_interface_modes(K_ss, M.ss, {.modes = n_modes, .cutoff_Hz = {}})}
   {}
-  linear::testing::Chain chain = free_chain(n);
-  DofPartition dofs = partition(chain.K, master_set(chain.K, {0, n - 1}));
+  linear::testing::Chain chain = free_chain(n_estimated);
+  DofPartition dofs = partition(chain.K, master_set(chain.K, {0, n_estimated - 1}));
   Blocks K = split(chain.K, dofs);
   Blocks M = split(chain.M, dofs);
   linear::Factorization K_ss = linear::factorize(K.ss);
@@ -58,7 +58,8 @@ struct HeldChain {
 /// lambda_k, k = 1, 2, ..., of m = n - 1 masses, one end held and the other free.
 double exact(int k)
 {
-  return 4.0 * std::pow(std::sin((2 * k - 1) * std::numbers::pi / (2.0 * (2 * n - 1))), 2);
+  return 4.0 *
+         std::pow(std::sin((2 * k - 1) * std::numbers::pi / (2.0 * (2 * n_estimated - 1))), 2);
 }
 
 double frequency_Hz(int k)
@@ -80,7 +81,7 @@ TEST(ErrorEstimates, MatchTheTrueErrorOfAHeldChain)
   // The error lies in the fixed-interface modes left out. One of frequency lambda_j contributes
   // 1 / (1 - lambda / lambda_j) of its share in eta^2, at most that of the first one left out.
   const double left_out =
-      4.0 * std::pow(std::sin((n_modes + 1) * std::numbers::pi / (2.0 * (n - 1))), 2);
+      4.0 * std::pow(std::sin((n_modes + 1) * std::numbers::pi / (2.0 * (n_estimated - 1))), 2);
   for (int k = 1; k < 9; ++k) {
     const double effectivity = eta2[k] / true_error(pairs, k);
     EXPECT_GT(effectivity, 1.0 - pairs.lambda[k] / left_out - 1e-3) << "mode " << k + 1;
@@ -96,7 +97,7 @@ TEST(ErrorEstimates, EncloseAnEigenvalueOfTheFullChain)
     const std::vector<double> eta2 = error_estimates(held.system(), pairs).eta2;
     for (std::size_t i = 0; i < eta2.size(); ++i) {
       double nearest = 1.0;
-      for (int k = 1; k < n; ++k)
+      for (int k = 1; k < n_estimated; ++k)
         nearest = std::min(nearest, std::abs(pairs.lambda[i] / exact(k) - 1.0));
       // Round-off of an exact pair: cond(K) eps.
       EXPECT_LE(nearest, std::sqrt(eta2[i]) + 1e-11) << n_modes << " modes, pair " << i + 1;
@@ -241,11 +242,12 @@ TEST(ToleranceSearch, TakesTheFirstNumberOfModesThatKeepsTheTolerance)
     search.find_modes();
   } while (!search.is_enough());
   const int n_modes = static_cast<int>(search.modes().omega.size());
-  const auto estimate = [&](int n) {
-    const FixedInterfaceModes next = fixed_interface_modes(held.K_ss, held.M.ss, {.modes = n + 1});
+  const auto estimate = [&](int n_estimated) {
+    const FixedInterfaceModes next =
+        fixed_interface_modes(held.K_ss, held.M.ss, {.modes = n_estimated + 1});
     const CraigBamptonBasis Q_CB{
         .Psi = constraint_modes(held.K_ss, held.K),
-        .modes = fixed_interface_modes(held.K_ss, held.M.ss, {.modes = n})};
+        .modes = fixed_interface_modes(held.K_ss, held.M.ss, {.modes = n_estimated})};
     const ReducedPairs pairs = lowest(project(Q_CB, held.K, held.M), 6);
     const std::vector<double> eta2 = error_estimates({held.K_ss, Q_CB, held.K, held.M}, pairs).eta2;
     double largest = 0.0;
@@ -396,7 +398,7 @@ TEST(ToleranceSearch, TakesAllModesOfTheRangeWhereEveryModeThatItHasIsExact)
   const HeldChain held(1);
   constexpr int n_in_range = 53;               // more than a search begins with
   const auto fixed_frequency_Hz = [](int k) {  // n - 2 masses between fixed ends
-    return std::sin(0.5 * k * std::numbers::pi / (n - 1)) / std::numbers::pi;
+    return std::sin(0.5 * k * std::numbers::pi / (n_estimated - 1)) / std::numbers::pi;
   };
   for (const int n_wanted : {19, n_in_range}) {
     const double between = 0.5 * (fixed_frequency_Hz(n_wanted) + fixed_frequency_Hz(n_wanted + 1));

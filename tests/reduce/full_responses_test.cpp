@@ -16,13 +16,13 @@ using Eigen::MatrixXd;
 using linear::testing::free_chain;
 using linear::testing::master_set;
 
-constexpr PetscInt n = 40;  // masses
+constexpr PetscInt n_of_full_chain = 40;  // masses
 constexpr double Omega_0 = 0.31;
 
 /// The chain reduced to its two ends.
-struct Reduction {
-  linear::testing::Chain chain = free_chain(n);
-  DofPartition dofs = partition(chain.K, master_set(chain.K, {0, n - 1}));
+struct FullReduction {
+  linear::testing::Chain chain = free_chain(n_of_full_chain);
+  DofPartition dofs = partition(chain.K, master_set(chain.K, {0, n_of_full_chain - 1}));
   Blocks K = split(chain.K, dofs);
   Blocks M = split(chain.M, dofs);
   linear::Factorization K_ss = linear::factorize(K.ss);
@@ -35,11 +35,11 @@ struct Reduction {
 };
 
 /// The displacement of every mass when the reduced chain is loaded at its first end.
-MatrixXd response(const CraigBamptonBasis& Q_CB, const Reduction& r, double Omega)
+MatrixXd response(const CraigBamptonBasis& Q_CB, const FullReduction& r, double Omega)
 {
   const ReducedModel reduced = project(Q_CB, r.K, r.M);
   const MatrixXd D = reduced.K - Omega * Omega * reduced.M;
-  std::vector<PetscInt> all(n);
+  std::vector<PetscInt> all(n_of_full_chain);
   std::iota(all.begin(), all.end(), 0);
   const MatrixXd Q = basis_rows(Q_CB, r.dofs, all);
   return Q * D.partialPivLu().solve(MatrixXd(MatrixXd::Identity(D.rows(), 1)));
@@ -47,19 +47,19 @@ MatrixXd response(const CraigBamptonBasis& Q_CB, const Reduction& r, double Omeg
 
 TEST(FullResponses, SolveTheWholeChain)
 {
-  const Reduction r;
-  const petsc::Matrix V = full_responses(r.chain.K, r.chain.M, Omega_0, {0, n - 1});
+  const FullReduction r;
+  const petsc::Matrix V = full_responses(r.chain.K, r.chain.M, Omega_0, {0, n_of_full_chain - 1});
   const MatrixXd v = linear::replicate(V);
   // u_j of the free chain: (2 - Omega^2) u_j = u_(j-1) + u_(j+1) but for the ends.
-  for (PetscInt j = 1; j + 1 < n; ++j)
+  for (PetscInt j = 1; j + 1 < n_of_full_chain; ++j)
     EXPECT_NEAR((2.0 - Omega_0 * Omega_0) * v(j, 0), v(j - 1, 0) + v(j + 1, 0), 1e-12);
   EXPECT_NEAR((1.0 - Omega_0 * Omega_0) * v(0, 0) - v(1, 0), 1.0, 1e-12);
-  EXPECT_NEAR(v(n - 1, 0), v(0, 1), 1e-12);  // reciprocity
+  EXPECT_NEAR(v(n_of_full_chain - 1, 0), v(0, 1), 1e-12);  // reciprocity
 }
 
 TEST(Enrich, MakesTheReducedResponseExactAtItsFrequency)
 {
-  const Reduction r;
+  const FullReduction r;
   CraigBamptonBasis Q_CB = r.basis(3);
   const petsc::Matrix V = full_responses(r.chain.K, r.chain.M, Omega_0, {0});
   const MatrixXd exact = linear::replicate(V);
@@ -74,9 +74,9 @@ TEST(Enrich, MakesTheReducedResponseExactAtItsFrequency)
 
 TEST(Enrich, KeepsWhatIsKnownOfFixedInterfaceModes)
 {
-  const Reduction r;
+  const FullReduction r;
   CraigBamptonBasis Q_CB = r.basis(3);
-  const petsc::Matrix V = full_responses(r.chain.K, r.chain.M, Omega_0, {0, n - 1});
+  const petsc::Matrix V = full_responses(r.chain.K, r.chain.M, Omega_0, {0, n_of_full_chain - 1});
   Q_CB.modes = enrich(Q_CB, r.dofs, {r.K.ss, r.M.ss}, V).modes;
   ASSERT_EQ(Q_CB.n_modes(), 5);
   // K_r and M_r in full, where `project` takes blocks for known.
@@ -88,7 +88,7 @@ TEST(Enrich, KeepsWhatIsKnownOfFixedInterfaceModes)
 
 TEST(Enrich, MakesTheResponseExactAtEachOfSeveralFrequencies)
 {
-  const Reduction r;
+  const FullReduction r;
   const std::vector<HarmonicLoads> loads{{.Omega_0 = Omega_0, .loaded = {0}},
                                          {.Omega_0 = 1.7 * Omega_0, .loaded = {0}}};
   CraigBamptonBasis Q_CB = r.basis(3);
@@ -104,7 +104,7 @@ TEST(Enrich, MakesTheResponseExactAtEachOfSeveralFrequencies)
 
 TEST(Enrich, AddsNothingForWhatTheBasisHolds)
 {
-  const Reduction r;
+  const FullReduction r;
   CraigBamptonBasis Q_CB = r.basis(3);
   const petsc::Matrix V = full_responses(r.chain.K, r.chain.M, Omega_0, {0});
   Q_CB.modes = enrich(Q_CB, r.dofs, {r.K.ss, r.M.ss}, V).modes;

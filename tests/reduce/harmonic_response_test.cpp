@@ -17,7 +17,7 @@ using linear::testing::Chain;
 using linear::testing::free_chain;
 using Complex = std::complex<double>;
 
-constexpr PetscInt n = 40;  // masses
+constexpr PetscInt n_of_loaded_chain = 40;  // masses
 const std::vector<DofForm> loads{{.dofs = {0}, .weights = {1.0}},
                                  {.dofs = {7, 30}, .weights = {0.25, 0.75}}};
 const std::vector<DofForm> outputs{{.dofs = {39}, .weights = {1.0}},
@@ -27,7 +27,7 @@ const std::vector<DofForm> outputs{{.dofs = {39}, .weights = {1.0}},
 /// A damper of strength 0.4 between mass 5 and mass 33, which no spring joins.
 petsc::Matrix damper()
 {
-  petsc::Matrix C = linear::testing::empty(n);
+  petsc::Matrix C = linear::testing::empty(n_of_loaded_chain);
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(C, &first, &last));
   for (const auto& [i, j] : {std::pair{5, 33}, std::pair{33, 5}}) {
@@ -41,7 +41,7 @@ petsc::Matrix damper()
 
 MatrixXd columns_of(const std::vector<DofForm>& forms)
 {
-  MatrixXd F = MatrixXd::Zero(n, std::ssize(forms));
+  MatrixXd F = MatrixXd::Zero(n_of_loaded_chain, std::ssize(forms));
   for (std::size_t j = 0; j < forms.size(); ++j)
     for (std::size_t k = 0; k < forms[j].dofs.size(); ++k)
       F(forms[j].dofs[k], Index(j)) += forms[j].weights[k];
@@ -52,7 +52,8 @@ MatrixXd columns_of(const std::vector<DofForm>& forms)
 MatrixXcd dense_response(const HarmonicModel& model, double Omega, const std::vector<int>& held)
 {
   const MatrixXd K = linear::replicate(model.K), M = linear::replicate(model.M);
-  const MatrixXd C = model.C == nullptr ? MatrixXd::Zero(n, n) : linear::replicate(model.C);
+  const MatrixXd C = model.C == nullptr ? MatrixXd::Zero(n_of_loaded_chain, n_of_loaded_chain)
+                                        : linear::replicate(model.C);
   const Complex i(0.0, 1.0);
   MatrixXcd A = Complex(1.0, model.loss_factor) * K +
                 i * Omega * (C + model.alpha * M + model.beta * K) - Complex(Omega * Omega) * M;
@@ -73,7 +74,7 @@ double difference(const MatrixXcd& a, const MatrixXcd& b)
 
 TEST(HarmonicResponse, IsThatOfTheDampedChainByDenseMatrices)
 {
-  const Chain chain = free_chain(n);
+  const Chain chain = free_chain(n_of_loaded_chain);
   const petsc::Matrix C = damper();
   const std::vector<int> held{0, 20};
   const HarmonicModel model{
@@ -85,7 +86,7 @@ TEST(HarmonicResponse, IsThatOfTheDampedChainByDenseMatrices)
 
 TEST(HarmonicResponse, OfEachKindOfDampingAloneIsThatOfDenseMatrices)
 {
-  const Chain chain = free_chain(n);
+  const Chain chain = free_chain(n_of_loaded_chain);
   const petsc::Matrix C = damper();
   const HarmonicModel all[] = {{.K = chain.K, .M = chain.M},
                                {.K = chain.K, .M = chain.M, .C = C},
@@ -100,8 +101,10 @@ TEST(HarmonicResponse, OfEachKindOfDampingAloneIsThatOfDenseMatrices)
 
 TEST(HarmonicResponse, OfAnUndampedChainHasNoBoundAtItsFrequencies)
 {
-  const Chain chain = free_chain(n);
-  const auto frequency = [](int k) { return 2.0 * std::sin(k * std::numbers::pi / (2.0 * n)); };
+  const Chain chain = free_chain(n_of_loaded_chain);
+  const auto frequency = [](int k) {
+    return 2.0 * std::sin(k * std::numbers::pi / (2.0 * n_of_loaded_chain));
+  };
   HarmonicResponse response({.K = chain.K, .M = chain.M}, free_dofs(chain.K, {}), loads, outputs);
   EXPECT_NO_THROW(response.at(0.5 * (frequency(4) + frequency(5))));
   EXPECT_ANY_THROW(response.at(frequency(5)));

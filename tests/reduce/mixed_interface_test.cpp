@@ -21,18 +21,18 @@ using Eigen::MatrixXd;
 using linear::testing::free_chain;
 using linear::testing::master_set;
 
-constexpr PetscInt n = 60;
-constexpr int n_modes = 7;
+constexpr PetscInt n_of_mixed_chain = 60;
+constexpr int n_mixed_modes = 7;
 
 /// lambda_k = 4 sin^2(k pi / 2 n), k = 0, 1, ..., of the free chain.
-double exact(int k)
+double exact_of_chains(int k)
 {
-  return 4.0 * std::pow(std::sin(0.5 * k * std::numbers::pi / n), 2);
+  return 4.0 * std::pow(std::sin(0.5 * k * std::numbers::pi / n_of_mixed_chain), 2);
 }
 
 /// The free chain with masters at an end and within, reduced by its own modes.
 struct ReducedChain {
-  linear::testing::Chain chain = free_chain(n);
+  linear::testing::Chain chain = free_chain(n_of_mixed_chain);
   DofPartition dofs = partition(chain.K, master_set(chain.K, {0, 23}));
   Blocks K = split(chain.K, dofs);
   Blocks M = split(chain.M, dofs);
@@ -40,7 +40,7 @@ struct ReducedChain {
   WholeSystem body{
       .K = chain.K, .M = chain.M, .dofs = dofs, .K_blocks = K, .M_blocks = M, .K_ss = K_ss};
   CraigBamptonBasis Q{.Psi = constraint_modes(K_ss, K), .modes = {}};
-  MixedInterfaceModes free = mixed_interface_modes(body, Q.Psi, {.modes = n_modes});
+  MixedInterfaceModes free = mixed_interface_modes(body, Q.Psi, {.modes = n_mixed_modes});
 };
 
 /// Eigenvalues of M x = mu (K + M) x as lambda = 1 / mu - 1, ascending; infinite without mass.
@@ -56,10 +56,10 @@ TEST(MixedInterfaceModes, BeginWithTheRigidMotion)
 {
   const ReducedChain reduced;
   EXPECT_EQ(reduced.free.n_rigid, 1);
-  ASSERT_EQ(reduced.free.n_modes(), 1 + n_modes);
+  ASSERT_EQ(reduced.free.n_modes(), 1 + n_mixed_modes);
   EXPECT_EQ(reduced.free.omega[0], 0.0);
-  for (int k = 1; k <= n_modes; ++k)
-    EXPECT_NEAR(std::pow(reduced.free.omega[k], 2) / exact(k), 1.0, 1e-9);
+  for (int k = 1; k <= n_mixed_modes; ++k)
+    EXPECT_NEAR(std::pow(reduced.free.omega[k], 2) / exact_of_chains(k), 1.0, 1e-9);
 }
 
 TEST(Rubin, KeepsTheModesThatItIsMadeOf)
@@ -68,10 +68,10 @@ TEST(Rubin, KeepsTheModesThatItIsMadeOf)
   reduced.Q.modes = residual_modes(reduced.body, reduced.free);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
   // Two masters, the modes, and the inertia relief of one rigid motion.
-  ASSERT_EQ(model.K.rows(), 2 + n_modes + 1);
+  ASSERT_EQ(model.K.rows(), 2 + n_mixed_modes + 1);
   const std::vector<double> lambda = eigenvalues(model.K, model.M);
   EXPECT_NEAR(lambda[0], 0.0, 1e-12);
-  for (int k = 1; k <= n_modes; ++k) EXPECT_NEAR(lambda[k] / exact(k), 1.0, 1e-9) << "mode " << k;
+  for (int k = 1; k <= n_mixed_modes; ++k) EXPECT_NEAR(lambda[k] / exact_of_chains(k), 1.0, 1e-9) << "mode " << k;
 }
 
 TEST(Rubin, IsStaticallyCompleteAndDynamicallyToSecondOrder)
@@ -81,10 +81,10 @@ TEST(Rubin, IsStaticallyCompleteAndDynamicallyToSecondOrder)
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
   // Receptance of the first mass to a force on it, full model: sum over all modes.
   const auto receptance = [](double omega2) {
-    double sum = -1.0 / (n * omega2);
-    for (int k = 1; k < n; ++k) {
-      const double phi = std::sqrt(2.0 / n) * std::cos(0.5 * k * std::numbers::pi / n);
-      sum += phi * phi / (exact(k) - omega2);
+    double sum = -1.0 / (n_of_mixed_chain * omega2);
+    for (int k = 1; k < n_of_mixed_chain; ++k) {
+      const double phi = std::sqrt(2.0 / n_of_mixed_chain) * std::cos(0.5 * k * std::numbers::pi / n_of_mixed_chain);
+      sum += phi * phi / (exact_of_chains(k) - omega2);
     }
     return sum;
   };
@@ -119,7 +119,7 @@ TEST(Rubin, HasCertifiedFrequenciesUnderASupport)
       error_estimates({reduced.K_ss, reduced.Q, reduced.K, reduced.M}, pairs).eta2;
   for (PetscInt j = 0; j < 4; ++j) {
     const double held =
-        4.0 * std::pow(std::sin((2 * j + 1) * std::numbers::pi / (2.0 * (2 * n - 1))),
+        4.0 * std::pow(std::sin((2 * j + 1) * std::numbers::pi / (2.0 * (2 * n_of_mixed_chain - 1))),
                        2);  // one end held
     const double error = pairs.lambda[j] / held - 1.0;
     EXPECT_NEAR(eta2[j], error, 0.2 * error + 1e-11) << "mode " << j + 1;
@@ -129,19 +129,19 @@ TEST(Rubin, HasCertifiedFrequenciesUnderASupport)
 /// 4 sin^2((2 k - 1) pi / (2 (2 n - 1))), k = 1, 2, ..., of the chain with one end held.
 double exact_with_end_held(int k)
 {
-  return 4.0 * std::pow(std::sin((2 * k - 1) * std::numbers::pi / (2.0 * (2 * n - 1))), 2);
+  return 4.0 * std::pow(std::sin((2 * k - 1) * std::numbers::pi / (2.0 * (2 * n_of_mixed_chain - 1))), 2);
 }
 
 TEST(MixedInterfaceModes, AreThoseOfTheBodyWithTheHeldMasters)
 {
   const ReducedChain reduced;
   const MixedInterfaceModes modes =
-      mixed_interface_modes(reduced.body, reduced.Q.Psi, {.modes = n_modes}, {0});
+      mixed_interface_modes(reduced.body, reduced.Q.Psi, {.modes = n_mixed_modes}, {0});
   EXPECT_EQ(modes.n_rigid, 0);
-  ASSERT_EQ(modes.n_modes(), n_modes);
+  ASSERT_EQ(modes.n_modes(), n_mixed_modes);
   EXPECT_EQ(modes.X_m.row(0).norm(), 0.0);
   EXPECT_GT(modes.X_m.row(1).norm(), 0.1);
-  for (int k = 1; k <= n_modes; ++k)
+  for (int k = 1; k <= n_mixed_modes; ++k)
     EXPECT_NEAR(std::pow(modes.omega[k - 1], 2) / exact_with_end_held(k), 1.0, 1e-9);
 }
 
@@ -166,23 +166,23 @@ std::vector<double> eigenvalues_with_end_held(const ReducedModel& model)
 }
 
 /// Two free chains like those above that lie into each other, and a mass that nothing holds.
-struct TwoChains {
-  static constexpr PetscInt n_rows = 2 * n + 1;
+struct TwoMixedChains {
+  static constexpr PetscInt n_rows = 2 * n_of_mixed_chain + 1;
   petsc::Matrix K = linear::testing::matrix(n_rows, 3, [](PetscInt i) {
     const PetscInt place = i / 2;
     linear::testing::Row row;
-    if (place == n) return linear::testing::Row{{i, 0.0}};
-    row.emplace_back(i, (place > 0) + (place + 1 < n));
+    if (place == n_of_mixed_chain) return linear::testing::Row{{i, 0.0}};
+    row.emplace_back(i, (place > 0) + (place + 1 < n_of_mixed_chain));
     if (place > 0) row.emplace_back(i - 2, -1.0);
-    if (place + 1 < n) row.emplace_back(i + 2, -1.0);
+    if (place + 1 < n_of_mixed_chain) row.emplace_back(i + 2, -1.0);
     return row;
   });
   petsc::Matrix M = linear::testing::diagonal(n_rows, [](PetscInt) { return 1.0; });
 };
 
 struct ReducedTwoChains {
-  TwoChains chains;
-  DofPartition dofs = partition(chains.K, master_set(chains.K, {0, 1, 46, 47, 2 * n}));
+  TwoMixedChains chains;
+  DofPartition dofs = partition(chains.K, master_set(chains.K, {0, 1, 46, 47, 2 * n_of_mixed_chain}));
   Blocks K = split(chains.K, dofs), M = split(chains.M, dofs);
   linear::Factorization K_ss = linear::factorize(K.ss);
   petsc::Matrix Psi = constraint_modes(K_ss, K);
@@ -200,7 +200,7 @@ std::vector<double> elastic(const Held& held, int n_of_each)
   for (const int first_mass : {0, 1}) {
     const bool is_held = std::ranges::find(held, first_mass) != held.end();
     for (int k = 1; k <= n_of_each; ++k)
-      lambda.push_back(is_held ? exact_with_end_held(k) : exact(k));
+      lambda.push_back(is_held ? exact_with_end_held(k) : exact_of_chains(k));
   }
   std::ranges::sort(lambda);
   return lambda;
@@ -212,8 +212,8 @@ TEST(MixedInterfaceModes, OfPartsWithTheSameFrequenciesMoveOnePartEach)
   const std::vector<PetscInt> rows = petsc::own_indices(two.dofs.slaves);
   for (const Held& held : {Held{}, {0, 4}, {0, 1, 4}}) {
     const MixedInterfaceModes modes =
-        mixed_interface_modes(two.body, two.Psi, {.modes = 2 * n_modes}, held);
-    const std::vector<double> lambda = elastic(held, n_modes);
+        mixed_interface_modes(two.body, two.Psi, {.modes = 2 * n_mixed_modes}, held);
+    const std::vector<double> lambda = elastic(held, n_mixed_modes);
     ASSERT_EQ(modes.n_rigid, 3 - std::ssize(held));
     ASSERT_EQ(modes.n_modes() - modes.n_rigid, std::ssize(lambda));
     MatrixXd sums = MatrixXd::Zero(modes.n_modes(), 2);  // of each chain
@@ -235,7 +235,7 @@ TEST(MixedInterfaceModes, OfPartsAreNoMoreThanTheElasticOnes)
   const ReducedTwoChains two;
   for (const Held& held : {Held{}, {0}, {1, 4}}) {
     constexpr double above_all = 5.0;
-    const std::vector<double> lambda = elastic(held, n - 1);  // held or not
+    const std::vector<double> lambda = elastic(held, n_of_mixed_chain - 1);  // held or not
     const auto n_all = static_cast<PetscInt>(lambda.size());
     for (const ReduceOptions& wanted :
          {ReduceOptions{.modes = n_all},
@@ -254,12 +254,12 @@ TEST(MixedInterface, KeepsTheModesUnderItsSupport)
 {
   ReducedChain reduced;
   const MixedInterfaceModes modes =
-      mixed_interface_modes(reduced.body, reduced.Q.Psi, {.modes = n_modes}, {0});
+      mixed_interface_modes(reduced.body, reduced.Q.Psi, {.modes = n_mixed_modes}, {0});
   reduced.Q.modes = residual_modes(reduced.body, modes);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
-  ASSERT_EQ(model.K.rows(), 2 + n_modes);
+  ASSERT_EQ(model.K.rows(), 2 + n_mixed_modes);
   const std::vector<double> lambda = eigenvalues_with_end_held(model);
-  for (int k = 1; k <= n_modes; ++k)
+  for (int k = 1; k <= n_mixed_modes; ++k)
     EXPECT_NEAR(lambda[k - 1] / exact_with_end_held(k), 1.0, 1e-9) << "mode " << k;
 }
 
@@ -267,7 +267,7 @@ TEST(MixedInterface, IsExactUnderForcesAtEachMasterAndOtherSupports)
 {
   ReducedChain reduced;
   const MixedInterfaceModes modes =
-      mixed_interface_modes(reduced.body, reduced.Q.Psi, {.modes = n_modes}, {0});
+      mixed_interface_modes(reduced.body, reduced.Q.Psi, {.modes = n_mixed_modes}, {0});
   reduced.Q.modes = residual_modes(reduced.body, modes);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
   // The spring between both masters, 23 of stiffness 1 in series.
@@ -275,17 +275,17 @@ TEST(MixedInterface, IsExactUnderForcesAtEachMasterAndOtherSupports)
   // Free, it is no worse than static condensation, and near the truth.
   const std::vector<double> free = eigenvalues(model.K, model.M);
   EXPECT_NEAR(free[0], 0.0, 1e-12);
-  for (int k = 1; k < 4; ++k) EXPECT_NEAR(free[k] / exact(k), 1.0, 1e-2) << "mode " << k;
+  for (int k = 1; k < 4; ++k) EXPECT_NEAR(free[k] / exact_of_chains(k), 1.0, 1e-2) << "mode " << k;
 }
 
 TEST(MixedInterface, WithAllMastersHeldIsCraigAndBampton)
 {
   ReducedChain reduced;
   const MixedInterfaceModes modes =
-      mixed_interface_modes(reduced.body, reduced.Q.Psi, {.modes = n_modes}, {0, 1});
+      mixed_interface_modes(reduced.body, reduced.Q.Psi, {.modes = n_mixed_modes}, {0, 1});
   const FixedInterfaceModes residual = residual_modes(reduced.body, modes);
   const FixedInterfaceModes fixed =
-      fixed_interface_modes(reduced.K_ss, reduced.M.ss, {.modes = n_modes});
+      fixed_interface_modes(reduced.K_ss, reduced.M.ss, {.modes = n_mixed_modes});
   ASSERT_EQ(residual.omega.size(), fixed.omega.size());
   for (std::size_t k = 0; k < fixed.omega.size(); ++k)
     EXPECT_NEAR(residual.omega[k] / fixed.omega[k], 1.0, 1e-10);

@@ -67,8 +67,8 @@ std::vector<double> hypercube_spectrum(int d, double shift)
 
 /// Values, residuals by the matrices, and orthonormality. Errors of the values are the squares of
 /// residuals of 1e-9, and round-off of well-conditioned K.
-void expect_pairs(Mat K, Mat M, const linear::EigenPairs& pairs, const std::vector<double>& exact,
-                  double allowed = 1e-11)
+void expect_multiple_pairs(Mat K, Mat M, const linear::EigenPairs& pairs,
+                           const std::vector<double>& exact, double allowed = 1e-11)
 {
   ASSERT_GE(pairs.lambda.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i)
@@ -99,7 +99,8 @@ void expect_lowest(Mat K, Mat M, const std::vector<double>& exact, double allowe
 {
   const linear::Factorization factor(K);
   const auto n = static_cast<PetscInt>(exact.size());
-  expect_pairs(K, M, linear::block_lanczos(factor.factor(), M, {.n_pairs = n}), exact, allowed);
+  expect_multiple_pairs(K, M, linear::block_lanczos(factor.factor(), M, {.n_pairs = n}), exact,
+                        allowed);
 }
 
 std::vector<double> blade_spectrum(PetscInt n_blades, PetscInt n)
@@ -138,7 +139,7 @@ TEST(Multiplicity, LeavesVectorsOrthonormalWhereTheSpaceEnds)
   for (const PetscInt n_pairs : {40, 80, 144}) {
     const linear::EigenPairs pairs =
         linear::block_lanczos(factor.factor(), M, {.n_pairs = n_pairs, .tolerance = 1e-7});
-    expect_pairs(K, M, pairs, pairs.lambda);
+    expect_multiple_pairs(K, M, pairs, pairs.lambda);
   }
 }
 
@@ -267,7 +268,7 @@ TEST(Multiplicity, EndsWithTheRankOfAConsistentMass)
   const linear::Factorization factor(K);
   const linear::EigenPairs pairs = linear::block_lanczos(factor.factor(), M, {.n_pairs = n});
   EXPECT_EQ(pairs.lambda.size(), exact.size());
-  expect_pairs(K, M, pairs, exact);
+  expect_multiple_pairs(K, M, pairs, exact);
 }
 
 TEST(CopiesAmong, AsksForMoreThanTheSequenceCanHold)

@@ -16,7 +16,7 @@
 namespace chladni::reduce {
 namespace {
 
-constexpr PetscInt n = 40;  // masses
+constexpr PetscInt n_of_reduced_chain = 40;  // masses
 
 /// Writes down what happens.
 class Diary : public PhaseListener {
@@ -29,21 +29,22 @@ class Diary : public PhaseListener {
 
 Body chain_with_masters(std::vector<PetscInt> masters)
 {
-  linear::testing::Chain chain = linear::testing::free_chain(n);
+  linear::testing::Chain chain = linear::testing::free_chain(n_of_reduced_chain);
   return {.K = std::move(chain.K), .M = std::move(chain.M), .masters = std::move(masters)};
 }
 
 /// Eigenvalue k = 1, 2, ... of the chain whose first mass is held.
 double held_eigenvalue(int k)
 {
-  return std::pow(2.0 * std::sin(0.5 * (2 * k - 1) * std::numbers::pi / (2 * n - 1)), 2);
+  return std::pow(
+      2.0 * std::sin(0.5 * (2 * k - 1) * std::numbers::pi / (2 * n_of_reduced_chain - 1)), 2);
 }
 
 TEST(Reduction, CertifiesTheModesUnderASupport)
 {
   PhaseListener silent;
   const ReductionOptions options{.basis = {.modes = 8}, .count = true};
-  FactoredBody body = factored(chain_with_masters({n - 1, 0}), options, silent);
+  FactoredBody body = factored(chain_with_masters({n_of_reduced_chain - 1, 0}), options, silent);
   const HeldMasters first_mass(body.masters, {0});
   const Certificate found = reduction(body, options, first_mass, silent).certificate;
   ASSERT_GE(found.bounds.size(), 8u);
@@ -101,7 +102,7 @@ TEST(Reduction, CountsWhereThatIsCheapAndNowhereElse)
 {
   PhaseListener silent;
   ReductionOptions options{.basis = {.modes = 30}, .count = {}};  // nobody says
-  FactoredBody body = factored(chain_with_masters({0, n - 1}), options, silent);
+  FactoredBody body = factored(chain_with_masters({0, n_of_reduced_chain - 1}), options, silent);
   const Certificate found = reduction(body, options, HeldMasters(), silent).certificate;
   EXPECT_EQ(found.range.sigma > 0.0, found.count_share < 0.1);
   options.count = false;
@@ -112,7 +113,7 @@ TEST(Reduction, TellsItsPhasesInTheirOrder)
 {
   Diary diary;
   const ReductionOptions options{.basis = {.modes = 4}, .count = true};
-  FactoredBody body = factored(chain_with_masters({0, n - 1}), options, diary);
+  FactoredBody body = factored(chain_with_masters({0, n_of_reduced_chain - 1}), options, diary);
   reduction(body, options, HeldMasters(), diary);
   EXPECT_EQ(diary.phases,
             (std::vector<std::string>{"partition", "factorization", "fixed-interface modes",
@@ -143,8 +144,10 @@ TEST(Reduction, IsTheSameFromScratchFiles)
       const ReductionOptions options{
           .basis = {.method = method, .modes = has_modes ? std::optional(4) : std::nullopt},
           .solver = {.scratch = folder.string()}};
-      FactoredBody body = factored(chain_with_masters({0, n - 1}), options, silent);
-      models.push_back(reduction(body, options, HeldMasters({0, n - 1}, {0}), silent).model);
+      FactoredBody body =
+          factored(chain_with_masters({0, n_of_reduced_chain - 1}), options, silent);
+      models.push_back(
+          reduction(body, options, HeldMasters({0, n_of_reduced_chain - 1}, {0}), silent).model);
     }
     EXPECT_EQ(models[0].K, models[1].K);
     EXPECT_EQ(models[0].M, models[1].M);

@@ -77,7 +77,7 @@ struct LoadedChain {
 };
 
 /// Of a symmetric matrix.
-VectorXd eigenvalues(const MatrixXd& A)
+VectorXd symmetric_eigenvalues(const MatrixXd& A)
 {
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues();
 }
@@ -92,8 +92,8 @@ TEST(ResponseErrors, LieBetweenTheirEstimateAndItsMultiple)
     const MatrixXd E = loaded.error(Omega);
     const MatrixXd G = forms.energy(loaded.responses(Omega), Omega * Omega);
     const double c = 1.0 / (1.0 - share * share), round_off = 1e-9 * E.norm() + 1e-13;
-    EXPECT_GT(eigenvalues(E - G).minCoeff(), -round_off) << share;
-    EXPECT_GT(eigenvalues(c * G - E).minCoeff(), -round_off) << share;
+    EXPECT_GT(symmetric_eigenvalues(E - G).minCoeff(), -round_off) << share;
+    EXPECT_GT(symmetric_eigenvalues(c * G - E).minCoeff(), -round_off) << share;
   }
 }
 
@@ -191,7 +191,7 @@ TEST(ResidualForms, NeedNoMastersThatStandStill)
 }
 
 /// Two chains that lie into each other, each between fixed ends, with masters in both.
-struct TwoChains {
+struct TwoLoadedChains {
   petsc::Matrix K_all = chains(2.1, -1.0), M_all = chains(1.0, 0.1);
   DofPartition dofs = partition(K_all, master_set(K_all, {10, 21, 60, 83}));
   Blocks K = split(K_all, dofs), M = split(M_all, dofs);
@@ -225,7 +225,7 @@ struct TwoChains {
 
 TEST(ResidualForms, OfAPartThatMovesAreThoseOfTheWhole)
 {
-  TwoChains of_part, of_all;
+  TwoLoadedChains of_part, of_all;
   const MovingSlaves even(of_part.K_ss, of_part.M, of_part.Q, {0, 2});
   if (petsc::size(PETSC_COMM_WORLD) == 1) {  // fronts that ranks share may mix the chains
     EXPECT_FALSE(even.are_all());
@@ -464,7 +464,7 @@ struct ReducedRandomBody {
 };
 
 /// The largest error of the responses of a model, relative to its size, as it is.
-double true_error(const ReducedRandomBody& body)
+double true_error_of_body(const ReducedRandomBody& body)
 {
   const Modal exact = body.exact(), reduced = body.of(body.model);
   double largest = 0.0;
@@ -490,7 +490,7 @@ TEST(ResponseErrors, OfRandomBodiesAreBoundedAtAllFrequenciesWithDamping)
     const double told = keep_responses(body.body, {body.Q, body.model}, body.held,
                                        body.modes.lambda_left_out, body.goal(tolerance))
                             .error;
-    const double true_one = true_error(body);
+    const double true_one = true_error_of_body(body);
     EXPECT_LE(true_one, told + of_modes) << "seed " << seed << ", tolerance " << tolerance;
     n_near += true_one > 0.2 * told ? 1 : 0;
   }

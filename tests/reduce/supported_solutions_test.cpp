@@ -54,7 +54,7 @@ TEST(StaticSolution, RefusesAnIndefiniteMatrix)
 }
 
 /// Chain of n unit masses with free ends: 4 sin^2(k pi / (2 n)).
-double free_eigenvalue(int k, int n)
+double eigenvalue_of_free_chain(int k, int n)
 {
   return 4.0 * std::pow(std::sin(0.5 * k * std::numbers::pi / n), 2);
 }
@@ -68,7 +68,7 @@ TEST(NaturalModes, OfAFreeChainBeginWithTheRigidOne)
   EXPECT_NEAR(modes.lambda[0], 0.0, 1e-9 * modes.lambda[1]);
   for (int k = 1; k < 8; ++k) {
     // The factor of K + mu M with mu near the first eigenvalue: cond 1e4 times round-off.
-    EXPECT_NEAR(modes.lambda[k] / free_eigenvalue(k, 200), 1.0, 1e-10);
+    EXPECT_NEAR(modes.lambda[k] / eigenvalue_of_free_chain(k, 200), 1.0, 1e-10);
   }
 }
 

@@ -13,7 +13,7 @@ namespace {
 using test::replaced;
 
 /// A scene that names a group in each table that can name one.
-const std::string brake = R"([mesh]
+const std::string brake_of_file = R"([mesh]
 file = "disc.step"
 element_size = 0.01
 [material.iron]
@@ -72,7 +72,7 @@ std::string said_of(const std::string& text)
 
 TEST(FileGroups, ThatExistAreTaken)
 {
-  EXPECT_EQ(said_of(brake), "no error");
+  EXPECT_EQ(said_of(brake_of_file), "no error");
 }
 
 TEST(FileGroups, ThatDoNotExistAreRefusedWithLineKeyAndTheNearestName)
@@ -89,7 +89,8 @@ TEST(FileGroups, ThatDoNotExistAreRefusedWithLineKeyAndTheNearestName)
       {"curve_8", "scene.toml:38: interface.nodes[2] = \"curv_8\""}};
   for (const auto& [name, place] : places) {
     const std::string slip = replaced(name, name.starts_with('s') ? "a" : "e", "");
-    const std::string said = said_of(replaced(brake, "\"" + name + "\"", "\"" + slip + "\""));
+    const std::string said =
+        said_of(replaced(brake_of_file, "\"" + name + "\"", "\"" + slip + "\""));
     EXPECT_NE(said.find(place), std::string::npos) << said;
     EXPECT_NE(said.find("did you mean \"" + name + "\"? there are: "), std::string::npos) << said;
   }
@@ -97,7 +98,7 @@ TEST(FileGroups, ThatDoNotExistAreRefusedWithLineKeyAndTheNearestName)
 
 TEST(FileGroups, OfAnotherNameThanTheCouplings)
 {
-  const std::string said = said_of(replaced(brake, "name = \"hub\"", "name = \"curve_1\""));
+  const std::string said = said_of(replaced(brake_of_file, "name = \"hub\"", "name = \"curve_1\""));
   EXPECT_NE(said.find("scene.toml:15: coupling[1].name = \"curve_1\": is the name of another"),
             std::string::npos)
       << said;
@@ -107,7 +108,7 @@ TEST(FileGroups, AreListedUpToThirty)
 {
   std::vector<std::string> many = groups;
   for (int i = 9; i <= 40; ++i) many.push_back("curve_" + std::to_string(i));
-  const Scene scene = parse_scene(replaced(brake, "\"curve_4\"", "\"rim\""), "scene.toml");
+  const Scene scene = parse_scene(replaced(brake_of_file, "\"curve_4\"", "\"rim\""), "scene.toml");
   try {
     check_groups(scene, many);
     FAIL() << "no error";

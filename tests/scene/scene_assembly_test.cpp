@@ -16,7 +16,7 @@ using squeal::AssemblyOptions;
 using test::error_of;
 using test::replaced;
 
-const std::string brake = R"([[part]]
+const std::string assembled_brake = R"([[part]]
 name = "disc"
 body = "disc.body.h5"
 [[part]]
@@ -53,14 +53,14 @@ speeds = { from_rad_s = 3.0, to_rad_s = 63.0, count = 20 }
 analyses = ["eigenvalues"]
 )";
 
-AssemblyOptions options_of(const std::string& text)
+AssemblyOptions assembly_options_of(const std::string& text)
 {
   return std::get<AssemblyOptions>(parse_scene(text, "scene.toml").squeal_model.value().model);
 }
 
 TEST(SceneAssembly, HasPartsJointsAndLinings)
 {
-  const AssemblyOptions options = options_of(brake);
+  const AssemblyOptions options = assembly_options_of(assembled_brake);
   ASSERT_EQ(options.parts.size(), 3u);
   EXPECT_EQ(options.parts[1].body, "pad.body.h5");
   EXPECT_EQ(options.parts[1].position[2], 0.3);
@@ -73,7 +73,9 @@ TEST(SceneAssembly, HasPartsJointsAndLinings)
   EXPECT_EQ(options.joints[0].damping[1], 5.0);
   EXPECT_EQ(options.joints[1].rigid, (std::vector{2, 0}));
   EXPECT_FALSE(options.joints[1].spares_drilling);
-  EXPECT_TRUE(options_of(replaced(brake, "dofs = [\"z\", \"x\"]", "")).joints[1].spares_drilling);
+  EXPECT_TRUE(assembly_options_of(replaced(assembled_brake, "dofs = [\"z\", \"x\"]", ""))
+                  .joints[1]
+                  .spares_drilling);
   EXPECT_EQ(options.joints[1].span, 0.02);
   ASSERT_EQ(options.contacts.size(), 1u);
   EXPECT_TRUE(options.contacts[0].stiffness.per_area);
@@ -81,18 +83,18 @@ TEST(SceneAssembly, HasPartsJointsAndLinings)
   EXPECT_EQ(options.contacts[0].preload.value, 1e6);
   EXPECT_EQ(options.rings.size(), 2u);
   EXPECT_TRUE(options.convection);
-  EXPECT_FALSE(
-      options_of(replaced(brake, "friction = 0.5", "friction = 0.5\nconvection = \"left out\""))
-          .convection);
+  EXPECT_FALSE(assembly_options_of(replaced(assembled_brake, "friction = 0.5",
+                                            "friction = 0.5\nconvection = \"left out\""))
+                   .convection);
 }
 
-struct Mistake {
+struct AssemblyMistake {
   std::string old_part, new_part, said;
 };
 
 TEST(SceneAssembly, SaysWhichKeyIsWrong)
 {
-  const std::vector<Mistake> mistakes{
+  const std::vector<AssemblyMistake> mistakes{
       {"face = \"pad.lining\"", "face = \"plate.lining\"",
        "scene.toml:23: contact.face = \"plate.lining\": no such part in the scene"},
       {"face = \"pad.lining\"", "face = \"lining\"", "must name nodes as \"PART.SET\""},
@@ -115,7 +117,7 @@ TEST(SceneAssembly, SaysWhichKeyIsWrong)
       {"span = 0.02", "span = 0.02\nstiffness = { x = 1.0 }", "joint[2].stiffness"},
   };
   for (const auto& [old_part, new_part, said] : mistakes) {
-    const std::string error = error_of(replaced(brake, old_part, new_part));
+    const std::string error = error_of(replaced(assembled_brake, old_part, new_part));
     EXPECT_NE(error.find(said), std::string::npos) << new_part << ": " << error;
   }
 }
@@ -125,9 +127,9 @@ TEST(SceneAssembly, MakesResultsStaleByItsTables)
   for (const auto& [old_part, new_part] :
        {std::pair{"position = [0.1, ", "position = [0.7, "},
         std::pair{"height = 0.013", "height = 0.02"}, std::pair{"x = 2e7", "x = 1e7"}}) {
-    const std::string other = replaced(brake, old_part, new_part);
-    EXPECT_EQ(changed_keys(brake, other, Step::squeal).size(), 1u) << new_part;
-    EXPECT_EQ(changed_keys(brake, other, Step::reduction).size(), 0u) << new_part;
+    const std::string other = replaced(assembled_brake, old_part, new_part);
+    EXPECT_EQ(changed_keys(assembled_brake, other, Step::squeal).size(), 1u) << new_part;
+    EXPECT_EQ(changed_keys(assembled_brake, other, Step::reduction).size(), 0u) << new_part;
   }
 }
 

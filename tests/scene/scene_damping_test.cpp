@@ -11,7 +11,7 @@ namespace {
 using test::error_of;
 using test::replaced;
 
-const std::string disc = R"([mesh]
+const std::string damped_disc = R"([mesh]
 generator = "annulus"
 inner_radius = 0.025
 outer_radius = 0.162
@@ -46,29 +46,29 @@ friction = 0.6
 pads = [{ angle_deg = 0.0, stiffness = 6e6, damping = 1.0, preload = 2000.0 }]
 )";
 
-Scene scene_of(const std::string& text)
+Scene scene_with(const std::string& text)
 {
   return parse_scene(text, "scene.toml");
 }
 
 TEST(LossFactorsOfAScene, AreThoseOfMaterialSectionAndSpring)
 {
-  EXPECT_EQ(scene_of(disc).body.damping.type, mbs_export::Damping::Type::none);
+  EXPECT_EQ(scene_with(damped_disc).body.damping.type, mbs_export::Damping::Type::none);
   const std::string lossy =
-      replaced(disc, "density = 6300.0", "density = 6300.0\nloss_factor = 0.01");
-  const Scene scene = scene_of(lossy);
+      replaced(damped_disc, "density = 6300.0", "density = 6300.0\nloss_factor = 0.01");
+  const Scene scene = scene_with(lossy);
   EXPECT_EQ(scene.sections[0].material.loss_factor, 0.01);
   EXPECT_FALSE(scene.sections[0].loss_factor);
   EXPECT_EQ(scene.body.damping.type, mbs_export::Damping::Type::matrix);
   const std::string section =
       replaced(lossy, "thickness = 0.02\n", "thickness = 0.02\nloss_factor = 0.0\n");
-  EXPECT_EQ(scene_of(section).sections[0].loss_factor, 0.0);
-  EXPECT_EQ(scene_of(section).body.damping.type, mbs_export::Damping::Type::none);
-  const std::string spring = replaced(disc, "[interface]",
+  EXPECT_EQ(scene_with(section).sections[0].loss_factor, 0.0);
+  EXPECT_EQ(scene_with(section).body.damping.type, mbs_export::Damping::Type::none);
+  const std::string spring = replaced(damped_disc, "[interface]",
                                       "[[spring]]\nat = \"hub\"\nstiffness = { z = 1e6 }\n"
                                       "loss_factor = 0.3\n[interface]");
-  EXPECT_EQ(scene_of(spring).springs[0].loss_factor, 0.3);
-  EXPECT_EQ(scene_of(spring).body.damping.type, mbs_export::Damping::Type::matrix);
+  EXPECT_EQ(scene_with(spring).springs[0].loss_factor, 0.3);
+  EXPECT_EQ(scene_with(spring).body.damping.type, mbs_export::Damping::Type::matrix);
   EXPECT_EQ(error_of(replaced(lossy, "loss_factor = 0.01", "loss_factor = -0.01")),
             "scene.toml:11: material.iron.loss_factor = -0.01: must be >= 0");
 }
@@ -76,10 +76,10 @@ TEST(LossFactorsOfAScene, AreThoseOfMaterialSectionAndSpring)
 TEST(MeasuredRatios, AreATableOverTheFrequency)
 {
   const auto with = [](const std::string& ratio) {
-    return replaced(disc, "fixed = [\"hub\"]",
+    return replaced(damped_disc, "fixed = [\"hub\"]",
                     "fixed = [\"hub\"]\ndamping = { type = \"modal\", ratio = " + ratio + " }");
   };
-  const Scene scene = scene_of(with("{ at_Hz = [100, 2000], values = [1e-3, 2e-3] }"));
+  const Scene scene = scene_with(with("{ at_Hz = [100, 2000], values = [1e-3, 2e-3] }"));
   EXPECT_EQ(scene.body.damping.at_Hz, (std::vector{100.0, 2000.0}));
   EXPECT_EQ(scene.body.damping.ratios, (std::vector{1e-3, 2e-3}));
   EXPECT_TRUE(error_of(with("{ at_Hz = [100, 2000], values = [1e-3] }"))
@@ -92,7 +92,8 @@ TEST(MeasuredRatios, AreATableOverTheFrequency)
 
 std::string with_table(const std::string& rows, const std::string& more = "")
 {
-  return replaced(disc, "friction = 0.6", "friction = { " + more + "table = [" + rows + "] }");
+  return replaced(damped_disc, "friction = 0.6",
+                  "friction = { " + more + "table = [" + rows + "] }");
 }
 
 const std::string hot =
@@ -103,7 +104,7 @@ const std::string cold =
 TEST(MeasuredFriction, HasACurveAtEachPressureOfEachTemperature)
 {
   const Scene scene =
-      scene_of(with_table(hot + ", " + cold, "temperature_C = 150.0, factor = 1.1, "));
+      scene_with(with_table(hot + ", " + cold, "temperature_C = 150.0, factor = 1.1, "));
   const squeal::FrictionLaw& law = scene.squeal->friction;
   ASSERT_TRUE(law.table);
   EXPECT_EQ(law.kinetic, 1.1);
@@ -140,10 +141,10 @@ TEST(MeasuredFriction, IsRefusedWithTheKeyAndTheRange)
 
 TEST(FrictionOfAPad, IsItsOwn)
 {
-  const std::string own = replaced(disc, "preload = 2000.0",
+  const std::string own = replaced(damped_disc, "preload = 2000.0",
                                    "preload = 2000.0, area = 2e-3, friction = { kinetic = 0.3, "
                                    "static = 0.4, decay_speed = 1.0 }");
-  const Scene scene = scene_of(own);
+  const Scene scene = scene_with(own);
   EXPECT_EQ(scene.squeal->pads[0].friction->kinetic, 0.3);
   EXPECT_EQ(scene.squeal->pads[0].area, 2e-3);
   EXPECT_FALSE(scene.squeal->pads[0].radius);
@@ -173,10 +174,10 @@ TEST(FaceOfAPad, IsRoundOrAPointByName)
 TEST(ShimOfAPad, IsBehindItsPlate)
 {
   const std::string shim =
-      replaced(disc, "preload = 2000.0",
+      replaced(damped_disc, "preload = 2000.0",
                "preload = 2000.0, shim = { stiffness = 4e7, loss_factor = 0.3, "
                "frequency_Hz = 1700.0 }");
-  EXPECT_EQ(scene_of(shim).squeal->pads[0].shim->loss_factor, 0.3);
+  EXPECT_EQ(scene_with(shim).squeal->pads[0].shim->loss_factor, 0.3);
   EXPECT_NE(error_of(replaced(shim, "shim =",
                               "body = { mass = 0.3, radial = { stiffness = 1e6, "
                               "damping = 0.0 } }, shim ="))
@@ -190,10 +191,10 @@ TEST(ShimOfAPad, IsBehindItsPlate)
 TEST(PreloadProgramOfAScene, AscendsInTime)
 {
   const auto with = [](const std::string& points) {
-    return replaced(disc, "initial_pad_displacement = 1e-6",
+    return replaced(damped_disc, "initial_pad_displacement = 1e-6",
                     "initial_pad_displacement = 1e-6, preload_program = [" + points + "]");
   };
-  const Scene scene = scene_of(with("{ t_s = 0.0, factor = 0.1 }, { t_s = 0.5, factor = 1.0 }"));
+  const Scene scene = scene_with(with("{ t_s = 0.0, factor = 0.1 }, { t_s = 0.5, factor = 1.0 }"));
   ASSERT_EQ(scene.squeal->study.transient->preload_program.size(), 2u);
   EXPECT_EQ(scene.squeal->study.transient->preload_program[1].factor, 1.0);
   EXPECT_FALSE(scene.squeal->study.transient->is_constant());
@@ -207,18 +208,19 @@ TEST(PreloadProgramOfAScene, AscendsInTime)
 
 TEST(AsymmetryOfAScene, IsAveragedOrKept)
 {
-  EXPECT_FALSE(scene_of(disc).squeal->keeps_asymmetry);
-  EXPECT_TRUE(scene_of(replaced(disc, "friction = 0.6", "friction = 0.6\nasymmetry = \"kept\""))
-                  .squeal->keeps_asymmetry);
+  EXPECT_FALSE(scene_with(damped_disc).squeal->keeps_asymmetry);
+  EXPECT_TRUE(
+      scene_with(replaced(damped_disc, "friction = 0.6", "friction = 0.6\nasymmetry = \"kept\""))
+          .squeal->keeps_asymmetry);
 }
 
 TEST(GradientsOfAScene, HaveASpeed)
 {
-  const std::string asked = replaced(disc, "[\"eigenvalues\"]", "[\"gradients\"]");
-  EXPECT_FALSE(scene_of(asked).squeal->study.gradients);
+  const std::string asked = replaced(damped_disc, "[\"eigenvalues\"]", "[\"gradients\"]");
+  EXPECT_FALSE(scene_with(asked).squeal->study.gradients);
   const std::string at =
       replaced(asked, "friction = 0.6", "friction = 0.6\ngradients = { speed_rad_s = 20.0 }");
-  EXPECT_EQ(scene_of(at).squeal->study.gradients->speed, 20.0);
+  EXPECT_EQ(scene_with(at).squeal->study.gradients->speed, 20.0);
 }
 
 }  // namespace

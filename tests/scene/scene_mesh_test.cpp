@@ -11,7 +11,7 @@ namespace {
 using test::error_of;
 
 /// A scene with this [mesh] and a section for `group`.
-std::string scene_of(const std::string& mesh, const std::string& group)
+std::string scene_of_mesh(const std::string& mesh, const std::string& group)
 {
   return "[mesh]\n" + mesh + R"([material.iron]
 young = 9e10
@@ -28,12 +28,12 @@ group = ")" +
 
 mesh::MeshOptions options_of(const std::string& mesh, const std::string& group)
 {
-  return parse_scene(scene_of(mesh, group), "folder/scene.toml").mesh;
+  return parse_scene(scene_of_mesh(mesh, group), "folder/scene.toml").mesh;
 }
 
 std::string mesh_error(const std::string& mesh, const std::string& group = "disc")
 {
-  return error_of(scene_of(mesh, group));
+  return error_of(scene_of_mesh(mesh, group));
 }
 
 /// Lines 2 to 8.

@@ -9,7 +9,7 @@ namespace {
 
 using test::error_of;
 
-const std::string disc = R"([mesh]
+const std::string sounding_disc = R"([mesh]
 generator = "annulus"
 inner_radius = 0.025
 outer_radius = 0.162
@@ -56,14 +56,14 @@ void expect_words(const std::string& error, const std::vector<std::string>& word
 
 TEST(SoundOfAScene, IsAbsentWithoutItsTable)
 {
-  EXPECT_FALSE(parse_scene(disc, "scene.toml").sound);
-  EXPECT_FALSE(parse_scene(disc, "scene.toml").radiation);
-  EXPECT_TRUE(parse_scene(disc + "radiation = true\n", "scene.toml").radiation);
+  EXPECT_FALSE(parse_scene(sounding_disc, "scene.toml").sound);
+  EXPECT_FALSE(parse_scene(sounding_disc, "scene.toml").radiation);
+  EXPECT_TRUE(parse_scene(sounding_disc + "radiation = true\n", "scene.toml").radiation);
 }
 
 TEST(SoundOfAScene, TakesTheOutlineOfAGeneratedDisc)
 {
-  const auto options = *parse_scene(disc + microphones, "scene.toml").sound;
+  const auto options = *parse_scene(sounding_disc + microphones, "scene.toml").sound;
   ASSERT_EQ(options.lines.size(), 1U);
   EXPECT_EQ(options.lines[0].from, Eigen::Vector2d(0.025, 0.0));
   EXPECT_EQ(options.lines[0].to, Eigen::Vector2d(0.162, 0.0));
@@ -75,7 +75,7 @@ TEST(SoundOfAScene, TakesTheOutlineOfAGeneratedDisc)
 
 TEST(SoundOfAScene, ReadsEveryKey)
 {
-  const auto options = *parse_scene(disc + microphones + R"(hub = "open"
+  const auto options = *parse_scene(sounding_disc + microphones + R"(hub = "open"
 outline = [{ from = [0.02, 0.0], to = [0.17, 0.01], thickness = 0.03 }]
 holes = [{ circle_radius = 0.1, radius = 0.01, count = 4, angle_deg = 45.0 }]
 medium = { density = 1.1, speed_of_sound = 340.0 }
@@ -115,7 +115,9 @@ wav = { microphone = "a", rate_Hz = 48000, duration_s = 2.0 }
 
 TEST(SoundOfAScene, NamesWhatIsWrong)
 {
-  const auto with = [&](const std::string& key) { return error_of(disc + microphones + key); };
+  const auto with = [&](const std::string& key) {
+    return error_of(sounding_disc + microphones + key);
+  };
   expect_words(with("methd = \"auto\"\n"), {"methd"});
   expect_words(with("method = \"boundary\"\n"), {"sound.method", "boundary", "fourier"});
   expect_words(with("element_size = -1.0\n"), {"sound.element_size", "-1"});
@@ -124,18 +126,20 @@ TEST(SoundOfAScene, NamesWhatIsWrong)
                {"outline", "from", "r >= 0"});
   expect_words(with("wav = { microphone = \"b\", rate_Hz = 48000, duration_s = 2.0 }\n"),
                {"microphone", "\"b\"", "\"a\""});
-  expect_words(error_of(disc + "[sound]\nmicrophones = [{ name = \"a\", position = [0.5] }]\n"),
-               {"position"});
-  expect_words(error_of(disc + "[sound]\nmicrophones = [{ name = \"a\", position = [1, 0, 0] }, "
+  expect_words(
+      error_of(sounding_disc + "[sound]\nmicrophones = [{ name = \"a\", position = [0.5] }]\n"),
+      {"position"});
+  expect_words(
+      error_of(sounding_disc + "[sound]\nmicrophones = [{ name = \"a\", position = [1, 0, 0] }, "
                                "{ name = \"a\", position = [2, 0, 0] }]\n"),
-               {"name", "\"a\"", "another microphone"});
+      {"name", "\"a\"", "another microphone"});
 }
 
 TEST(SoundOfAScene, NeedsTheSquealAndAnOutline)
 {
-  const std::string silent = disc.substr(0, disc.find("[squeal]"));
+  const std::string silent = sounding_disc.substr(0, sounding_disc.find("[squeal]"));
   expect_words(error_of(silent + microphones), {"sound", "[squeal]"});
-  std::string tapered = disc + microphones;
+  std::string tapered = sounding_disc + microphones;
   const std::string thickness = "thickness = 0.02\n[[coupling]]";
   tapered.replace(tapered.find(thickness), thickness.size(),
                   "thickness = { over = \"radius\", at = [0.0, 0.2], values = [0.02, 0.03] }\n"

@@ -20,7 +20,7 @@ using test::error_of;
 using test::replaced;
 
 /// The thesis disc, short; the numbers of its lines stand in the tests below.
-const std::string disc = R"(title = "Disc"
+const std::string disc_scene = R"(title = "Disc"
 [mesh]
 generator = "annulus"
 inner_radius = 0.025
@@ -74,18 +74,18 @@ struct Mistake {
 void expect_messages(const std::vector<Mistake>& mistakes)
 {
   for (const Mistake& mistake : mistakes) {
-    EXPECT_EQ(error_of(replaced(disc, mistake.old_part, mistake.new_part)), mistake.message)
+    EXPECT_EQ(error_of(replaced(disc_scene, mistake.old_part, mistake.new_part)), mistake.message)
         << mistake.new_part;
   }
 }
 
 TEST(Scene, HoldsTheMeshAndItsSections)
 {
-  const Scene scene = parse_scene(disc, "folder/scene.toml");
+  const Scene scene = parse_scene(disc_scene, "folder/scene.toml");
   ASSERT_TRUE(scene.mesh.annulus);
   EXPECT_EQ(scene.name, "disc");
   EXPECT_EQ(scene.title, "Disc");
-  EXPECT_EQ(scene.text, disc);
+  EXPECT_EQ(scene.text, disc_scene);
   EXPECT_EQ(scene.mesh.annulus->inner_radius, 0.025);
   EXPECT_EQ(scene.mesh.annulus->outer_radius, 0.162);
   EXPECT_EQ(scene.mesh.annulus->element_size, 0.0078);
@@ -104,7 +104,7 @@ TEST(Scene, HoldsTheMeshAndItsSections)
 
 TEST(Scene, HoldsTheReductionAndTheBody)
 {
-  const Scene scene = parse_scene(disc, "scene.toml");
+  const Scene scene = parse_scene(disc_scene, "scene.toml");
   EXPECT_EQ(scene.interface_nodes, (std::vector<std::string>{"track", "hub"}));
   EXPECT_EQ(scene.pictures, PictureChoice::vertices);
   EXPECT_EQ(scene.reduce.modes, 100);
@@ -119,7 +119,7 @@ TEST(Scene, HoldsTheReductionAndTheBody)
 TEST(Scene, HoldsTheToleranceOfTheBody)
 {
   const Scene scene = parse_scene(
-      replaced(disc, "{ modes = 40 }", "{ tolerance = 1e-3, up_to_Hz = 8e3 }"), "scene.toml");
+      replaced(disc_scene, "{ modes = 40 }", "{ tolerance = 1e-3, up_to_Hz = 8e3 }"), "scene.toml");
   ASSERT_TRUE(scene.body.keep.tolerance);
   EXPECT_EQ(scene.body.keep.tolerance->error, 1e-3);
   EXPECT_EQ(scene.body.keep.tolerance->up_to_Hz, 8e3);
@@ -132,21 +132,21 @@ TEST(Scene, LeavesTheMethodOpenWhereAToleranceIsGiven)
   const auto method = [](const std::string& text) {
     return parse_scene(text, "scene.toml").reduce.method;
   };
-  const std::string tolerance = replaced(disc, "modes = 100", "tolerance = 1e-3\nup_to_Hz = 8e3");
+  const std::string tolerance = replaced(disc_scene, "modes = 100", "tolerance = 1e-3\nup_to_Hz = 8e3");
   EXPECT_EQ(method(tolerance), Method::craig_bampton);  // as it says
   EXPECT_EQ(method(replaced(tolerance, "method = \"craig-bampton\"\n", "")), Method::automatic);
   EXPECT_EQ(method(replaced(tolerance, "craig-bampton", "auto")), Method::automatic);
   EXPECT_EQ(method(replaced(tolerance, "craig-bampton", "mixed-interface")),
             Method::mixed_interface);
-  EXPECT_EQ(method(replaced(disc, "craig-bampton", "mixed-interface")), Method::mixed_interface);
+  EXPECT_EQ(method(replaced(disc_scene, "craig-bampton", "mixed-interface")), Method::mixed_interface);
 }
 
 TEST(SceneError, NamesTheMethodThatSuitsTheChoiceOfModes)
 {
-  const std::string tolerance = replaced(disc, "modes = 100", "tolerance = 1e-3\nup_to_Hz = 8e3");
-  EXPECT_NE(error_of(replaced(disc, "craig-bampton", "auto")).find("give tolerance and up_to_Hz"),
+  const std::string tolerance = replaced(disc_scene, "modes = 100", "tolerance = 1e-3\nup_to_Hz = 8e3");
+  EXPECT_NE(error_of(replaced(disc_scene, "craig-bampton", "auto")).find("give tolerance and up_to_Hz"),
             std::string::npos);
-  EXPECT_NE(error_of(replaced(disc, "method = \"craig-bampton\"\n", "")).find("reduce.method"),
+  EXPECT_NE(error_of(replaced(disc_scene, "method = \"craig-bampton\"\n", "")).find("reduce.method"),
             std::string::npos);
   EXPECT_NE(error_of(replaced(tolerance, "craig-bampton", "rubin")).find("\"mixed-interface\""),
             std::string::npos);
@@ -166,7 +166,7 @@ TEST(SceneError, NeedsARangeForATolerance)
 
 TEST(Scene, HoldsTheSquealStudyInRadians)
 {
-  const Scene scene = parse_scene(disc, "scene.toml");
+  const Scene scene = parse_scene(disc_scene, "scene.toml");
   ASSERT_TRUE(scene.squeal);
   EXPECT_EQ(scene.squeal->thickness, 0.03);
   EXPECT_EQ(scene.squeal->modes.nodal_diameters, 3);
@@ -184,7 +184,7 @@ TEST(Scene, TakesSpeedsInAnyUnit)
 {
   const std::string rad_s = "from_rad_s = 3.0, to_rad_s = 63.0";
   const auto speeds = [&](const std::string& words) {
-    return parse_scene(replaced(disc, rad_s, words), "scene.toml").squeal->study.speeds;
+    return parse_scene(replaced(disc_scene, rad_s, words), "scene.toml").squeal->study.speeds;
   };
   EXPECT_DOUBLE_EQ(speeds("from_rpm = 30, to_rpm = 600").from, std::numbers::pi);
   EXPECT_DOUBLE_EQ(speeds("from_rpm = 30, to_rpm = 600").to, 20.0 * std::numbers::pi);
@@ -203,11 +203,11 @@ TEST(Scene, TakesSpeedsInAnyUnit)
 TEST(Scene, NotesNumbersThatLookLikeAnotherUnits)
 {
   const auto note = [&](const std::string& old_part, const std::string& new_part) {
-    const Scene scene = parse_scene(replaced(disc, old_part, new_part), "scene.toml");
+    const Scene scene = parse_scene(replaced(disc_scene, old_part, new_part), "scene.toml");
     return scene.notes.size() == 1 ? scene.notes[0] : "no single note";
   };
-  EXPECT_TRUE(parse_scene(disc, "scene.toml").notes.empty());
-  EXPECT_TRUE(parse_scene(replaced(disc, "9e10", "1.0"), "scene.toml").notes.empty());
+  EXPECT_TRUE(parse_scene(disc_scene, "scene.toml").notes.empty());
+  EXPECT_TRUE(parse_scene(replaced(disc_scene, "9e10", "1.0"), "scene.toml").notes.empty());
   EXPECT_EQ(note("9e10", "110"),
             "scene.toml:10: material.iron.young = 110 is unusual: it is in Pa, and a steel has "
             "2.1e11");
@@ -221,18 +221,18 @@ TEST(Scene, NotesNumbersThatLookLikeAnotherUnits)
 
 TEST(Scene, TakesTheSpeedOfALimitCycleFromTheTransientUnlessGiven)
 {
-  EXPECT_EQ(parse_scene(disc, "scene.toml").squeal->study.limit_cycle_direct->speed, 19.0);
+  EXPECT_EQ(parse_scene(disc_scene, "scene.toml").squeal->study.limit_cycle_direct->speed, 19.0);
   const Scene scene =
-      parse_scene(disc + "limit_cycle_direct = { speed_rad_s = 20.0 }\n", "scene.toml");
+      parse_scene(disc_scene + "limit_cycle_direct = { speed_rad_s = 20.0 }\n", "scene.toml");
   EXPECT_EQ(scene.squeal->study.limit_cycle_direct->speed, 20.0);
 }
 
 TEST(Scene, HoldsTheSecondParameterOfAStabilityMap)
 {
-  EXPECT_FALSE(parse_scene(disc, "scene.toml").squeal->study.map);
+  EXPECT_FALSE(parse_scene(disc_scene, "scene.toml").squeal->study.map);
   const std::string map =
       "map = { parameter = \"stiffness\", from = 1e6, to = 9e6, count = 100 }\n";
-  const Scene scene = parse_scene(disc + map, "scene.toml");
+  const Scene scene = parse_scene(disc_scene + map, "scene.toml");
   ASSERT_TRUE(scene.squeal->study.map);
   EXPECT_TRUE(scene.squeal->study.critical.empty());
   EXPECT_FALSE(scene.squeal->study.sound);
@@ -246,9 +246,9 @@ TEST(Scene, VariesAKeyOfOnePad)
 {
   const std::string map =
       "map = { parameter = \"pads[2].stiffness\", from = 1e6, to = 9e6, count = 100 }\n";
-  EXPECT_EQ(parse_scene(disc + map, "scene.toml").squeal->study.map->parameter,
+  EXPECT_EQ(parse_scene(disc_scene + map, "scene.toml").squeal->study.map->parameter,
             (squeal::MapParameter{"stiffness", 2}));
-  const std::string none = error_of(disc + replaced(map, "pads[2].stiffness", "pads[2].rubbing"));
+  const std::string none = error_of(disc_scene + replaced(map, "pads[2].stiffness", "pads[2].rubbing"));
   EXPECT_NE(none.find("that of one pad alone is called like \"pads[1].stiffness\""),
             std::string::npos)
       << none;
@@ -258,22 +258,22 @@ TEST(SceneError, NamesWhatAStabilityMapCannotBe)
 {
   const std::string map =
       "map = { parameter = \"stiffness\", from = 1e6, to = 9e6, count = 100 }\n";
-  const std::string speed = error_of(disc + replaced(map, "stiffness", "speed"));
+  const std::string speed = error_of(disc_scene + replaced(map, "stiffness", "speed"));
   EXPECT_NE(speed.find("scene.toml:43: squeal.map.parameter = \"speed\": must be one of "
                        "\"friction\", \"preload\", \"stiffness\", \"damping\""),
             std::string::npos)
       << speed;
   EXPECT_EQ(speed.find("oscillator"), std::string::npos);  // no parameter of a disc
-  EXPECT_EQ(error_of(disc + replaced(map, "to = 9e6", "to = 9e5")),
+  EXPECT_EQ(error_of(disc_scene + replaced(map, "to = 9e6", "to = 9e5")),
             "scene.toml:43: squeal.map.to = 900000: must be >= 1000000");
-  EXPECT_EQ(error_of(replaced(disc, "\"growth\", ", "\"stability-map\", ")),
+  EXPECT_EQ(error_of(replaced(disc_scene, "\"growth\", ", "\"stability-map\", ")),
             "scene.toml:40: squeal.analyses = [ 'eigenvalues', 'stability-map', 'transient' ]: "
             "\"stability-map\" needs the key map");
 }
 
 TEST(Scene, TakesValuesInsteadOfDefaults)
 {
-  std::string text = replaced(disc, "title = \"Disc\"", "name = \"rotor_1\"");
+  std::string text = replaced(disc_scene, "title = \"Disc\"", "name = \"rotor_1\"");
   text = replaced(text, "modes = 100", "cutoff_Hz = 16e3\npictures = \"none\"\nsylvester = true");
   text = replaced(text, "{ modes = 40 }", "{ list = [7, 8] }");
   text = replaced(text, "{ type = \"none\" }", "{ type = \"modal\", ratio = 0.001 }");
@@ -301,9 +301,9 @@ TEST(Scene, TakesValuesInsteadOfDefaults)
 TEST(Scene, SaysWhichMotionsStiffenTheBody)
 {
   const auto with = [](const std::string& words) {
-    return replaced(disc, "[body]", "stiffening = [" + words + "]\n[body]");
+    return replaced(disc_scene, "[body]", "stiffening = [" + words + "]\n[body]");
   };
-  EXPECT_TRUE(parse_scene(disc, "scene.toml").stiffening.empty());
+  EXPECT_TRUE(parse_scene(disc_scene, "scene.toml").stiffening.empty());
   EXPECT_EQ(parse_scene(with("\"spin-z\", \"acceleration\""), "scene.toml").stiffening,
             (std::vector<std::string>{"spin-z", "acceleration"}));
   EXPECT_NE(error_of(with("\"spin-w\"")).find("must be one of \"spin-x\""), std::string::npos);
@@ -318,7 +318,7 @@ TEST(Scene, SaysWhereInterfaceModesAndResultantsComeFrom)
 {
   using Space = mbs_export::InterfaceModes::Space;
   const Scene scene = parse_scene(
-      replaced(replaced(disc, "omega0 = \"auto\" }", "omega0 = \"auto\", space = \"full\" }"),
+      replaced(replaced(disc_scene, "omega0 = \"auto\" }", "omega0 = \"auto\", space = \"full\" }"),
                "[body]",
                "resultants = [\"disc\"]\nresultant_elements = [3, 4]\n"
                "mass_integrals = false\n[body]"),
@@ -327,9 +327,9 @@ TEST(Scene, SaysWhereInterfaceModesAndResultantsComeFrom)
   EXPECT_EQ(scene.resultants.groups, std::vector<std::string>{"disc"});
   EXPECT_EQ(scene.resultants.elements, (std::vector<int>{3, 4}));
   EXPECT_FALSE(scene.mass_integrals);
-  EXPECT_TRUE(parse_scene(disc, "scene.toml").mass_integrals);
+  EXPECT_TRUE(parse_scene(disc_scene, "scene.toml").mass_integrals);
   EXPECT_NE(
-      error_of(replaced(disc, "kind = \"frm\", at = \"track\", dofs = [\"z\"], omega0 = \"auto\"",
+      error_of(replaced(disc_scene, "kind = \"frm\", at = \"track\", dofs = [\"z\"], omega0 = \"auto\"",
                         "kind = \"irm\", at = \"track\", dofs = [\"z\"], space = \"full\""))
           .find("holds every static response already"),
       std::string::npos);
@@ -338,17 +338,17 @@ TEST(Scene, SaysWhereInterfaceModesAndResultantsComeFrom)
 TEST(SceneError, RefusesResponsesOfTheWholeModelInAFreeInterfaceReduction)
 {
   const std::string full =
-      replaced(disc, "omega0 = \"auto\" }", "omega0 = \"auto\", space = \"full\" }");
+      replaced(disc_scene, "omega0 = \"auto\" }", "omega0 = \"auto\", space = \"full\" }");
   EXPECT_EQ(error_of(full), "no error");
   const std::string text = error_of(replaced(full, "craig-bampton", "rubin"));
   EXPECT_NE(text.find("space = \"full\": responses of the whole model"), std::string::npos) << text;
   EXPECT_NE(text.find("reduce with method \"craig-bampton\""), std::string::npos) << text;
-  EXPECT_EQ(error_of(replaced(disc, "craig-bampton", "rubin")), "no error");
+  EXPECT_EQ(error_of(replaced(disc_scene, "craig-bampton", "rubin")), "no error");
 }
 
 TEST(SceneError, NamesRubinInPlaceOfMacNeal)
 {
-  const std::string text = error_of(replaced(disc, "craig-bampton", "macneal"));
+  const std::string text = error_of(replaced(disc_scene, "craig-bampton", "macneal"));
   EXPECT_NE(text.find("reduce.method = \"macneal\": MacNeal's method is gone"), std::string::npos)
       << text;
   EXPECT_NE(text.find("take \"rubin\""), std::string::npos) << text;
@@ -356,7 +356,7 @@ TEST(SceneError, NamesRubinInPlaceOfMacNeal)
 
 TEST(Scene, NeedsNeitherBodyNorSqueal)
 {
-  const Scene scene = parse_scene(disc.substr(0, disc.find("[body]")), "scene.toml");
+  const Scene scene = parse_scene(disc_scene.substr(0, disc_scene.find("[body]")), "scene.toml");
   EXPECT_TRUE(scene.body.fixed.empty());
   EXPECT_FALSE(scene.body.keep.count);
   EXPECT_FALSE(scene.squeal);
@@ -364,9 +364,9 @@ TEST(Scene, NeedsNeitherBodyNorSqueal)
 
 TEST(Scene, FindsAMeshFileInItsOwnFolder)
 {
-  const std::size_t begin = disc.find("generator");
-  const std::string generator = disc.substr(begin, disc.find("rings") - begin);
-  const std::string text = replaced(disc, generator, "file = \"../mesh/disc.msh\"\n");
+  const std::size_t begin = disc_scene.find("generator");
+  const std::string generator = disc_scene.substr(begin, disc_scene.find("rings") - begin);
+  const std::string text = replaced(disc_scene, generator, "file = \"../mesh/disc.msh\"\n");
   const Scene scene = parse_scene(text, "cases/a/scene.toml");
   EXPECT_EQ(scene.mesh.file, "cases/mesh/disc.msh");
   EXPECT_FALSE(scene.mesh.annulus);
@@ -387,7 +387,7 @@ TEST(Scene, TakesHillsMethodUnlessFloquetIsAskedFor)
 {
   const std::string growth = "growth = { speeds_rad_s = [12.0, 13.0], duration_s = 0.3 }";
   const auto method_of = [&](const std::string& lines) {
-    return parse_scene(replaced(disc, growth, growth + lines), "scene.toml")
+    return parse_scene(replaced(disc_scene, growth, growth + lines), "scene.toml")
         .squeal->study.rotation_method;
   };
   EXPECT_EQ(method_of(""), squeal::RotationMethod::hill);
@@ -396,7 +396,7 @@ TEST(Scene, TakesHillsMethodUnlessFloquetIsAskedFor)
   EXPECT_EQ(method_of("\nrotation_stability = { method = \"floquet\" }"),
             squeal::RotationMethod::floquet);
   const std::string error =
-      error_of(replaced(disc, growth, growth + "\nrotation_stability = { method = \"hil\" }"));
+      error_of(replaced(disc_scene, growth, growth + "\nrotation_stability = { method = \"hil\" }"));
   EXPECT_NE(error.find("rotation_stability.method"), std::string::npos) << error;
   EXPECT_NE(error.find("floquet"), std::string::npos) << error;
 }
@@ -405,13 +405,13 @@ TEST(Scene, TakesHillsMethodUnlessFloquetIsAskedFor)
 std::string disc_with_two_rings()
 {
   const std::string ring = "{ name = \"track\", radius = 0.13, nodes = 60 }";
-  return replaced(replaced(disc, ring, ring + ", { name = \"inner\", radius = 0.12, nodes = 60 }"),
+  return replaced(replaced(disc_scene, ring, ring + ", { name = \"inner\", radius = 0.12, nodes = 60 }"),
                   "nodes = [\"track\", \"hub\"]", "nodes = [\"track\", \"inner\", \"hub\"]");
 }
 
 TEST(Scene, NamesOneRingOrOneForEachContactPlane)
 {
-  const squeal::SquealOptions one = parse_scene(disc, "scene.toml").squeal.value();
+  const squeal::SquealOptions one = parse_scene(disc_scene, "scene.toml").squeal.value();
   EXPECT_FALSE(one.planes);
   const std::string two = replaced(disc_with_two_rings(), "ring = \"track\"",
                                    "ring = { inboard = \"inner\", outboard = \"track\" }");
@@ -421,7 +421,7 @@ TEST(Scene, NamesOneRingOrOneForEachContactPlane)
   EXPECT_FALSE(faces.planes->heights);
   EXPECT_EQ(faces.thickness, 0.03);
   const squeal::SquealOptions planes =
-      parse_scene(replaced(disc, "thickness = 0.03", "contact_planes = [-0.01, 0.015]"),
+      parse_scene(replaced(disc_scene, "thickness = 0.03", "contact_planes = [-0.01, 0.015]"),
                   "scene.toml")
           .squeal.value();
   EXPECT_EQ(planes.planes.value().opposite_ring, "");
@@ -460,8 +460,8 @@ TEST(SceneError, NamesWhatIsWrongWithContactPlanes)
 
 TEST(SceneError, NamesWhatAnIntegratorACriticalValueOrASoundLacks)
 {
-  const auto with = [](const std::string& lines) { return error_of(disc + lines + "\n"); };
-  EXPECT_EQ(error_of(replaced(disc, "7e-8 }", "7e-8, integrator = \"euler\" }")),
+  const auto with = [](const std::string& lines) { return error_of(disc_scene + lines + "\n"); };
+  EXPECT_EQ(error_of(replaced(disc_scene, "7e-8 }", "7e-8, integrator = \"euler\" }")),
             "scene.toml:41: squeal.transient.integrator = \"euler\": must be one of \"auto\", "
             "\"splitting\", \"exponential\", \"dormand-prince\", \"generalised-alpha\"");
   EXPECT_EQ(with("wav = { rate_Hz = 100 }"),
@@ -469,7 +469,7 @@ TEST(SceneError, NamesWhatAnIntegratorACriticalValueOrASoundLacks)
   EXPECT_EQ(
       with("critical = [{ parameter = \"preload\", from = 2.0, to = 1.0, speed_rad_s = 19.0 }]"),
       "scene.toml:43: squeal.critical.to = 1: must be > 2 (from)");
-  EXPECT_EQ(error_of(replaced(disc, "\"growth\", \"transient\"]", "\"critical-values\"]")),
+  EXPECT_EQ(error_of(replaced(disc_scene, "\"growth\", \"transient\"]", "\"critical-values\"]")),
             "scene.toml:40: squeal.analyses = [ 'eigenvalues', 'critical-values' ]: "
             "\"critical-values\" needs the key critical");
 }
@@ -620,7 +620,7 @@ TEST(Scene, ReadsPadsWithAGridABodyAndACaliper)
   const std::string plain =
       "pads = [{ angle_deg = 90.0, stiffness = 6e6, damping = 1.0, preload = 2000.0 }]";
   const std::string good = replaced(pads, "axial = 1 }", "stiffness = 1e6, damping = 0.0 }");
-  const Scene scene = parse_scene(replaced(disc, plain, good), "scene.toml");
+  const Scene scene = parse_scene(replaced(disc_scene, plain, good), "scene.toml");
   const squeal::PadPair& pad = scene.squeal->pads.at(0);
   EXPECT_DOUBLE_EQ(pad.grid->sector, std::numbers::pi * 2.0 / 9.0);
   EXPECT_EQ(pad.grid->points, 5);
@@ -629,14 +629,14 @@ TEST(Scene, ReadsPadsWithAGridABodyAndACaliper)
   EXPECT_FALSE(pad.body->tangential);
   EXPECT_EQ(pad.caliper->axial.stiffness, 1e6);
   const auto error_after = [&](const std::string& from, const std::string& to) {
-    return error_of(replaced(disc, plain, replaced(good, from, to)));
+    return error_of(replaced(disc_scene, plain, replaced(good, from, to)));
   };
   EXPECT_EQ(error_after("grid = {", "radius = 0.02, grid = {"),
             "scene.toml:39: squeal.pads.radius = 0.02: is for a round face, and `grid` gives the "
             "points of "
             "another; leave out one of them");
   const std::string round = replaced(plain, "damping = 1.0", "damping = 1.0, radius = 0.02");
-  EXPECT_EQ(parse_scene(replaced(disc, plain, round), "scene.toml").squeal->pads.at(0).radius,
+  EXPECT_EQ(parse_scene(replaced(disc_scene, plain, round), "scene.toml").squeal->pads.at(0).radius,
             0.02);
   EXPECT_EQ(error_after("points = 5", "points = 0"),
             "scene.toml:39: squeal.pads.grid.points = 0: must be >= 1 and <= 10000");
@@ -651,7 +651,7 @@ TEST(Scene, ReadsPadsWithAGridABodyAndACaliper)
             "(kg m^2)");
   EXPECT_TRUE(error_after(", axial = { stiffness = 1e7, damping = 3.0 }", "")
                   .ends_with("carries the pads by their axial suspension: give body.axial"));
-  EXPECT_TRUE(error_of(replaced(disc, plain,
+  EXPECT_TRUE(error_of(replaced(disc_scene, plain,
                                 replaced(plain, "preload = 2000.0",
                                          "preload = 2000.0, body = { mass = 1.0 }")))
                   .ends_with("about_radial, about_tangential or about_axial"));
@@ -660,7 +660,7 @@ TEST(Scene, ReadsPadsWithAGridABodyAndACaliper)
 TEST(Scene, ReadsASpeedProgramThatBeginsWithTheSpeedOfTheTransient)
 {
   const auto with = [](const std::string& points) {
-    return replaced(disc, "initial_pad_displacement = 7e-8",
+    return replaced(disc_scene, "initial_pad_displacement = 7e-8",
                     "initial_pad_displacement = 7e-8, speed_program = " + points);
   };
   const Scene scene = parse_scene(
@@ -683,12 +683,12 @@ TEST(SceneError, LimitsTheNumberOfPads)
   const std::string pad = "{ angle_deg = 90.0, stiffness = 6e6, damping = 1.0, preload = 2000.0";
   std::string many = "pads = [";
   for (int i = 0; i < 1001; ++i) many += pad + " },";
-  EXPECT_NE(error_of(replaced(disc, "pads = [" + pad + " }]", many + "]"))
+  EXPECT_NE(error_of(replaced(disc_scene, "pads = [" + pad + " }]", many + "]"))
                 .find("are 1001 pad pairs; there may be 1000"),
             std::string::npos);
   const std::string wide = pad + ", grid = { sector_deg = 60.0, points = 4000 } },";
   EXPECT_NE(
-      error_of(replaced(disc, "pads = [" + pad + " }]", "pads = [" + wide + wide + wide + "]"))
+      error_of(replaced(disc_scene, "pads = [" + pad + " }]", "pads = [" + wide + wide + wide + "]"))
           .find("have 12000 contact points in all; there may be 10000"),
       std::string::npos);
 }
@@ -696,7 +696,7 @@ TEST(SceneError, LimitsTheNumberOfPads)
 TEST(SceneError, TellsADecimalCommaInAFormula)
 {
   const std::string error =
-      error_of(replaced(disc, "thickness = 0.02\n", "thickness = \"max(0,02, x)\"\n"));
+      error_of(replaced(disc_scene, "thickness = 0.02\n", "thickness = \"max(0,02, x)\"\n"));
   EXPECT_NE(error.find("section.thickness = \"max(0,02, x)\": "), std::string::npos) << error;
   EXPECT_NE(error.find("0.02"), std::string::npos) << error;
   EXPECT_EQ(error.find("scene.toml:"), 0u) << error;
@@ -798,7 +798,7 @@ TEST(SceneError, NamesAnUnknownKeyAndTheNearestOnes)
 
 TEST(SceneError, ListsAllUnknownKeysByLine)
 {
-  const std::string text = replaced(replaced(disc, "keep =", "keeep ="), "title", "titel");
+  const std::string text = replaced(replaced(disc_scene, "keep =", "keeep ="), "title", "titel");
   EXPECT_TRUE(std::regex_match(error_of(text),
                                std::regex("scene.toml:1: titel .*\nscene.toml:29: body.keeep .*")));
 }
@@ -835,7 +835,7 @@ TEST(SceneError, NamesAWordThatRefersToNothing)
 TEST(Scene, ReadsATolerancePromisedUpToAFrequency)
 {
   const Scene scene =
-      parse_scene(replaced(disc, "modes = 100", "tolerance = 1e-3\nup_to_Hz = 8e3"), "scene.toml");
+      parse_scene(replaced(disc_scene, "modes = 100", "tolerance = 1e-3\nup_to_Hz = 8e3"), "scene.toml");
   ASSERT_TRUE(scene.reduce.tolerance.has_value());
   EXPECT_EQ(scene.reduce.tolerance->tolerance, 1e-3);
   EXPECT_EQ(scene.reduce.tolerance->up_to_Hz, 8e3);
@@ -1000,7 +1000,7 @@ TEST(SceneError, NamesWhatABeamCannotBe)
   expect("resultants = [\"beam\"]", "resultants = [\"rim\"]",
          "scene.toml:30: reduce.resultants[1] = \"rim\": no such group of elements in the scene; "
          "there are: \"beam\"");
-  EXPECT_EQ(error_of(replaced(disc, "type = \"shell\"", "type = \"beam\"")),
+  EXPECT_EQ(error_of(replaced(disc_scene, "type = \"shell\"", "type = \"beam\"")),
             "scene.toml:15: section.type = \"beam\": this generator makes surfaces; use \"shell\"");
 }
 
@@ -1094,13 +1094,13 @@ TEST(SceneError, EndsKeysDeeperThanAStackInASentence)
 
 TEST(SceneError, NamesTheLineOfASyntaxError)
 {
-  EXPECT_TRUE(error_of(replaced(disc, "[squeal]", "[squeal")).starts_with("scene.toml:32: "));
-  EXPECT_TRUE(error_of(replaced(disc, "young = 9e10", "young = ")).starts_with("scene.toml:10: "));
+  EXPECT_TRUE(error_of(replaced(disc_scene, "[squeal]", "[squeal")).starts_with("scene.toml:32: "));
+  EXPECT_TRUE(error_of(replaced(disc_scene, "young = 9e10", "young = ")).starts_with("scene.toml:10: "));
 }
 
 TEST(SceneError, KeepsFilesInTheirFolder)
 {
-  EXPECT_EQ(error_of(replaced(disc, "title = \"Disc\"", "name = \"../disc\"")),
+  EXPECT_EQ(error_of(replaced(disc_scene, "title = \"Disc\"", "name = \"../disc\"")),
             "scene.toml:1: name = \"../disc\": names files: only letters, digits, _ and -");
 }
 
@@ -1140,10 +1140,10 @@ TEST(SceneError, NamesAFileThatCannotBeRead)
 // the other one would be taken for a slip.
 TEST(SceneError, NeverTakesOneKeyForAnother)
 {
-  std::istringstream lines(disc);
+  std::istringstream lines(disc_scene);
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("[") || line.starts_with("type")) continue;
-    const std::string message = error_of(replaced(disc, line + "\n", ""));
+    const std::string message = error_of(replaced(disc_scene, line + "\n", ""));
     EXPECT_EQ(message.find("not a key"), std::string::npos) << line << ": " << message;
   }
 }

@@ -24,7 +24,7 @@ using namespace test;
 using files::test::ScratchFolder;
 
 /// Two pairs whose free vibrations decay by 1 1/s.
-Disc damped_disc()
+Disc lightly_damped_disc()
 {
   auto body = analytic_body({kirchhoff_2(), kirchhoff_3()});
   body.C = 2.0 * Eigen::Matrix4d::Identity();
@@ -52,7 +52,7 @@ TEST(CriticalValue, DividesStableFromUnstable)
   // Without damping both what drives the pair and what brakes it are proportional to friction; with
   // damping of the modes friction and stiffness decide. Newton's value is a border of the sign of
   // the growth, to rounding.
-  const FlexibleDisc brake(damped_disc(), reference_options());
+  const FlexibleDisc brake(lightly_damped_disc(), reference_options());
   const double speed = 6.0 * pi;
   for (const auto& [parameter, from, to] :
        {std::tuple{MapParameter::friction, 0.05, 1.0}, {MapParameter::stiffness, 1e5, 6e6}}) {

@@ -70,7 +70,7 @@ TEST(ContactPlanes, AreThoseOfTheMiddleSurfaceUnderHillAndFloquet)
 }
 
 /// Contact is lost and regained, slopes reach 1e-2.
-Eigen::VectorXd large_state(Eigen::Index n)
+Eigen::VectorXd large_state_of_planes(Eigen::Index n)
 {
   Eigen::VectorXd x(n);
   for (Eigen::Index i = 0; i < n; ++i) x[i] = 6.0 * std::sin(1.0 + 2.0 * double(i));
@@ -90,7 +90,7 @@ TEST(ContactPlanes, AreTheSameInLargeMotionsAndInBothFrames)
   SlidingDisc sliding(inertial, faces, speed);
   RotatingDisc rotating(disc, faces, speed);
   EXPECT_EQ(sliding.rate(0.0, Eigen::VectorXd::Zero(12)).norm(), 0.0);
-  const Eigen::VectorXd x = large_state(12);
+  const Eigen::VectorXd x = large_state_of_planes(12);
   sliding.take_sides(0.0, x);
   plate.take_sides(0.0, x);
   // The lever is h / 2 here and h / (2 s) there: s - 1 is 3e-5.
@@ -199,7 +199,7 @@ TEST(ContactPlanes, OfTwoPlatesThatMoveByThemselvesGrowAlikeInAllFrames)
   EXPECT_GT(std::abs(growth - of_plate), 0.1);
 }
 
-std::string complaint(const ModalBody& body, const SquealOptions& options)
+std::string complaint_of_planes(const ModalBody& body, const SquealOptions& options)
 {
   try {
     pad_system(options, ring_places(disc_for(body, options)));
@@ -212,19 +212,20 @@ std::string complaint(const ModalBody& body, const SquealOptions& options)
 TEST(ContactPlanes, SayWhichKeyMakesWhatIsMissing)
 {
   const ModalBody body = linked_body({kirchhoff_3()}, {-0.01, 0.01, 0.01});
-  EXPECT_EQ(complaint(body, on_faces(reference_options())), "");
+  EXPECT_EQ(complaint_of_planes(body, on_faces(reference_options())), "");
   // "track" has no displacements in the plane.
-  const std::string in_plane =
-      complaint(body, on_rings(reference_options(), "track", {.opposite_ring = "ring 1"}));
+  const std::string in_plane = complaint_of_planes(
+      body, on_rings(reference_options(), "track", {.opposite_ring = "ring 1"}));
   EXPECT_NE(in_plane.find("interface.nodes = [\"track\", ...]"), std::string::npos) << in_plane;
-  const std::string height =
-      complaint(body, on_rings(reference_options(), "ring 2", {.opposite_ring = "ring 3"}));
+  const std::string height = complaint_of_planes(
+      body, on_rings(reference_options(), "ring 2", {.opposite_ring = "ring 3"}));
   EXPECT_NE(height.find("both lie at z = 0.01 m"), std::string::npos) << height;
-  EXPECT_NE(complaint(body, on_rings(reference_options(), "ring 2", {.opposite_ring = "ring 9"})),
+  EXPECT_NE(complaint_of_planes(
+                body, on_rings(reference_options(), "ring 2", {.opposite_ring = "ring 9"})),
             "");
   SquealOptions beside = reference_options();
   beside.slopes_from = {"ring 1"};  // at another height
-  const std::string slopes = complaint(body, beside);
+  const std::string slopes = complaint_of_planes(body, beside);
   EXPECT_NE(slopes.find("no ring of slopes_from lies at its height"), std::string::npos) << slopes;
   EXPECT_NE(slopes.find("slopes_from, or reduce it with the rotations"), std::string::npos);
 }

@@ -19,7 +19,7 @@ using namespace test;
 using Complex = std::complex<double>;
 using Eigen::Matrix2d, Eigen::Vector2d;
 
-constexpr double own = 1749.7487734358904, of_source = 1672.13;
+constexpr double own_frequency_of_terms = 1749.7487734358904, source_frequency_of_terms = 1672.13;
 constexpr int n = 3;
 
 /// q'' + C q' + K q = 0 of a mass-normalised pair in the inertial frame.
@@ -133,12 +133,18 @@ struct ReadingRow {
   double beta, chi, f_Hz, critical_by_pi;
 };
 const ReadingRow reading_rows[] = {
-    {1.0, 0.0, own, 4.27189840736292},   {1.0, 0.0, of_source, 4.256745495510474},
-    {2.0, 1.0, own, 4.266012790204654},  {2.0, 1.0, of_source, 4.250896559537205},
-    {1.0, 1.0, own, 4.267436234145713},  {1.0, 1.0, of_source, 4.252325064344921},
-    {2.0, 0.0, own, 4.2704737718499635}, {2.0, 0.0, of_source, 4.255315786616032},
-    {0.0, 0.0, own, 4.273322567900462},  {0.0, 0.0, of_source, 4.2581747243380255},
-    {0.0, 1.0, own, 4.268859203369069},  {0.0, 1.0, of_source, 4.253753089354363},
+    {1.0, 0.0, own_frequency_of_terms, 4.27189840736292},
+    {1.0, 0.0, source_frequency_of_terms, 4.256745495510474},
+    {2.0, 1.0, own_frequency_of_terms, 4.266012790204654},
+    {2.0, 1.0, source_frequency_of_terms, 4.250896559537205},
+    {1.0, 1.0, own_frequency_of_terms, 4.267436234145713},
+    {1.0, 1.0, source_frequency_of_terms, 4.252325064344921},
+    {2.0, 0.0, own_frequency_of_terms, 4.2704737718499635},
+    {2.0, 0.0, source_frequency_of_terms, 4.255315786616032},
+    {0.0, 0.0, own_frequency_of_terms, 4.273322567900462},
+    {0.0, 0.0, source_frequency_of_terms, 4.2581747243380255},
+    {0.0, 1.0, own_frequency_of_terms, 4.268859203369069},
+    {0.0, 1.0, source_frequency_of_terms, 4.253753089354363},
 };
 
 TEST(ContactTerms, OfEachReadingOfTheKinematicsMeetTheCriticalSpeedOfTheReference)
@@ -157,48 +163,75 @@ struct EigenvalueRow {
   Complex backward, forward;
 };
 const EigenvalueRow eigenvalue_rows[] = {
-    {own, 1.0, {-1.37970579504817, 10994.072879180108}, {-20.498221781226352, 11123.413091500383}},
-    {own, 3.8, {-4.713808731874561, 10985.26327381264}, {-1.0435406303025356, 11132.242719154921}},
-    {own, 4.0, {-4.896635173121177, 10984.312242038928}, {-0.5728467209467345, 11133.193895775745}},
-    {own, 4.2, {-5.072101481575443, 10983.326109477402}, {-0.1369288937292573, 11134.180152906714}},
-    {own, 4.5, {-5.321825536660148, 10981.784166492}, {0.4600638530456059, 11135.722252381056}},
-    {own, 5.0, {-5.703578620767481, 10979.058187173558}, {1.3279931055108276, 11138.448432266838}},
-    {own, 6.0, {-6.349555180851726, 10973.091056573865}, {2.7032339181400307, 11144.415822803356}},
-    {own, 10.0, {-7.843968050234245, 10944.515456447374}, {5.656175292606741, 11172.991787768311}},
-    {own, 20.0, {-8.81362880741713, 10859.44764323244}, {7.719732428602443, 11258.059679511227}},
-    {of_source,
+    {own_frequency_of_terms,
+     1.0,
+     {-1.37970579504817, 10994.072879180108},
+     {-20.498221781226352, 11123.413091500383}},
+    {own_frequency_of_terms,
+     3.8,
+     {-4.713808731874561, 10985.26327381264},
+     {-1.0435406303025356, 11132.242719154921}},
+    {own_frequency_of_terms,
+     4.0,
+     {-4.896635173121177, 10984.312242038928},
+     {-0.5728467209467345, 11133.193895775745}},
+    {own_frequency_of_terms,
+     4.2,
+     {-5.072101481575443, 10983.326109477402},
+     {-0.1369288937292573, 11134.180152906714}},
+    {own_frequency_of_terms,
+     4.5,
+     {-5.321825536660148, 10981.784166492},
+     {0.4600638530456059, 11135.722252381056}},
+    {own_frequency_of_terms,
+     5.0,
+     {-5.703578620767481, 10979.058187173558},
+     {1.3279931055108276, 11138.448432266838}},
+    {own_frequency_of_terms,
+     6.0,
+     {-6.349555180851726, 10973.091056573865},
+     {2.7032339181400307, 11144.415822803356}},
+    {own_frequency_of_terms,
+     10.0,
+     {-7.843968050234245, 10944.515456447374},
+     {5.656175292606741, 11172.991787768311}},
+    {own_frequency_of_terms,
+     20.0,
+     {-8.81362880741713, 10859.44764323244},
+     {7.719732428602443, 11258.059679511227}},
+    {source_frequency_of_terms,
      1.0,
      {-1.37388422305736, 10506.424755539525},
      {-20.50404335321648, 10641.611738175618}},
-    {of_source,
+    {source_frequency_of_terms,
      3.8,
      {-4.732698075903019, 10497.953202220959},
      {-1.0246512862739385, 10650.104219529621}},
-    {of_source,
+    {source_frequency_of_terms,
      4.0,
      {-4.9207363567230855, 10497.033869222862},
      {-0.5487455373450424, 10651.023703844112}},
-    {of_source,
+    {source_frequency_of_terms,
      4.2,
      {-5.101718762251866, 10496.079764508006},
      {-0.10731161305073164, 10651.977938675072}},
-    {of_source,
+    {source_frequency_of_terms,
      4.5,
      {-5.360207055937864, 10494.58626846425},
      {0.4984453723217133, 10653.471598144435}},
-    {of_source,
+    {source_frequency_of_terms,
      5.0,
      {-5.757578118178759, 10491.941406373777},
      {1.3819926029251024, 10656.11666961291}},
-    {of_source,
+    {source_frequency_of_terms,
      6.0,
      {-6.436803649228466, 10486.13415892388},
      {2.790482386515455, 10661.92418814293}},
-    {of_source,
+    {source_frequency_of_terms,
      10.0,
      {-8.05033462483486, 10458.09869355595},
      {5.8625418672079945, 10689.960031228647}},
-    {of_source,
+    {source_frequency_of_terms,
      20.0,
      {-9.150172473754889, 10373.74090260245},
      {8.056276094940193, 10774.317887201636}},
@@ -246,7 +279,7 @@ TEST(ContactTerms, DecideTheStabilityAsInTheReference)
 {
   for (const TermRow& row : term_rows) {
     SCOPED_TRACE(testing::Message() << "row " << &row - term_rows << ", factor " << row.factor);
-    const StateMatrixAt A = matrices(linear_field, own, row.term, row.factor);
+    const StateMatrixAt A = matrices(linear_field, own_frequency_of_terms, row.term, row.factor);
     const auto critical = critical_by_pi(A);
     ASSERT_EQ(critical.has_value(), row.critical_by_pi.has_value());
     if (critical) {

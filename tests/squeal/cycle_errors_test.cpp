@@ -103,16 +103,16 @@ TEST(CycleStability, IsNotWrongNearAFoldOrAHopfPoint)
 
 /// A cycle at a tolerance of 1e-13 with three times the exponentials of the sharpest that tell an
 /// error, its multiplier by them, and its amplitudes from 8192 samples.
-struct Reference {
+struct ReferenceCycle {
   double frequency_Hz, velocity, displacement, multiplier;
 };
 
-Reference reference_of(const Brake& brake, const DirectLimitCycle& cycle)
+ReferenceCycle reference_of(const Brake& brake, const DirectLimitCycle& cycle)
 {
   const auto motion = brake.motion(cycle.speed);
   CycleStart at{cycle.x, 1.0 / cycle.frequency_Hz};
   const Eigen::Index n = at.x.size();
-  Reference reference{};
+  ReferenceCycle reference{};
   for (int i = 0; i < 3; ++i) {
     const Flow now = flow(*motion, at, 1e-13);
     Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n + 1, n + 1);
@@ -144,7 +144,7 @@ Reference reference_of(const Brake& brake, const DirectLimitCycle& cycle)
 }
 
 /// A mass on a belt whose friction falls over the speed.
-Oscillator falling_friction()
+Oscillator oscillator_of_falling_friction()
 {
   return {.mass = 2.0,
           .k_x = 4e4,
@@ -189,7 +189,8 @@ std::vector<Case> cases()
   heavy.pads.front().body = PadBody{.mass = 0.1, .axial = Suspension{9e6, 2.0}};
   all.push_back({"pad with a mass", std::make_shared<FlexibleDisc>(disc_of({kirchhoff_3()}), heavy),
                  6.0 * pi});
-  all.push_back({"oscillator", std::make_shared<SlidingBrake>(falling_friction()), 2.0});
+  all.push_back(
+      {"oscillator", std::make_shared<SlidingBrake>(oscillator_of_falling_friction()), 2.0});
   return all;
 }
 
@@ -199,7 +200,7 @@ TEST(CycleErrors, OfTheIntegrationAreThoseThatAFinerOneFinds)
     SCOPED_TRACE(name);
     const DirectLimitCycle cycle = limit_cycle_direct(*brake, speed);
     const CycleErrors errors = cycle_errors(*brake, cycle);
-    const Reference reference = reference_of(*brake, cycle);
+    const ReferenceCycle reference = reference_of(*brake, cycle);
     const auto check = [&](const char* what, double told, double found, double size) {
       EXPECT_GE(told + 1e-11 * size, 0.5 * found) << what;
       EXPECT_LE(told, 2.0 * found + 1e-11 * size) << what;

@@ -14,8 +14,8 @@ namespace {
 using namespace test;
 
 /// The text of the error that making the disc throws, empty when it does not.
-std::string complaint(const mbs_export::ModalBody& body, const ModeChoice& modes,
-                      const std::string& ring = "track")
+std::string complaint_of_choice(const mbs_export::ModalBody& body, const ModeChoice& modes,
+                                const std::string& ring = "track")
 {
   try {
     disc_on_ring(body, ring, modes);
@@ -119,7 +119,8 @@ TEST(Disc, LeavesOutModesThatDoNotMoveTheRing)
   for (Eigen::MatrixXd* shape : {&body.rings[0].W, &body.rings[0].W_r, &body.rings[0].W_t})
     shape->col(2) *= 1e-9;
   EXPECT_EQ(disc_on_ring(body, "track", {}).mode_numbers, (std::vector{1, 2, 4, 5, 6}));
-  EXPECT_NE(complaint(body, list({2, 3})).find("mode 3 does not move the ring"), std::string::npos);
+  EXPECT_NE(complaint_of_choice(body, list({2, 3})).find("mode 3 does not move the ring"),
+            std::string::npos);
 }
 
 TEST(Disc, KeepsTheDampingOfTheChosenModes)
@@ -151,12 +152,14 @@ TEST(Disc, HasTheCoriolisTermsOfATranslationInItsPlane)
 
 TEST(Disc, RefusesWhatTheBodyDoesNotHave)
 {
-  EXPECT_NE(complaint(three_pairs(), {}, "brake"), "");
-  EXPECT_NE(complaint(three_pairs(), nodal(5)).find("5 nodal diameters"), std::string::npos);
-  EXPECT_NE(complaint(three_pairs(), list({1, 7})).find("modes 1 to 6"), std::string::npos);
-  EXPECT_NE(complaint(three_pairs(), list({0})).find("no mode 0"), std::string::npos);
-  EXPECT_NE(complaint(three_pairs(), list({2, 2})).find("twice"), std::string::npos);
-  EXPECT_NE(complaint(three_pairs(), list({})), "");
+  EXPECT_NE(complaint_of_choice(three_pairs(), {}, "brake"), "");
+  EXPECT_NE(complaint_of_choice(three_pairs(), nodal(5)).find("5 nodal diameters"),
+            std::string::npos);
+  EXPECT_NE(complaint_of_choice(three_pairs(), list({1, 7})).find("modes 1 to 6"),
+            std::string::npos);
+  EXPECT_NE(complaint_of_choice(three_pairs(), list({0})).find("no mode 0"), std::string::npos);
+  EXPECT_NE(complaint_of_choice(three_pairs(), list({2, 2})).find("twice"), std::string::npos);
+  EXPECT_NE(complaint_of_choice(three_pairs(), list({})), "");
 }
 
 TEST(Disc, RefusesARingWhoseNodesDoNotRotate)
@@ -164,7 +167,8 @@ TEST(Disc, RefusesARingWhoseNodesDoNotRotate)
   auto still = three_pairs();
   still.rings[0].W_r.setZero();
   still.rings[0].W_t.setZero();
-  EXPECT_NE(complaint(still, {}).find("do not rotate"), std::string::npos) << complaint(still, {});
+  EXPECT_NE(complaint_of_choice(still, {}).find("do not rotate"), std::string::npos)
+      << complaint_of_choice(still, {});
 }
 
 TEST(Disc, RefusesAHeldRingAndAFreeBody)
@@ -173,14 +177,14 @@ TEST(Disc, RefusesAHeldRingAndAFreeBody)
   held.rings[0].W.setZero();
   held.rings[0].W_r.setZero();
   held.rings[0].W_t.setZero();
-  EXPECT_NE(complaint(held, {}).find("no mode of the body moves it"), std::string::npos);
+  EXPECT_NE(complaint_of_choice(held, {}).find("no mode of the body moves it"), std::string::npos);
   auto free = three_pairs();
   free.omega[1] = 1e-4;
-  EXPECT_NE(complaint(free, {}).find("hold the disc"), std::string::npos);
-  EXPECT_EQ(complaint(free, nodal(3)), "");
+  EXPECT_NE(complaint_of_choice(free, {}).find("hold the disc"), std::string::npos);
+  EXPECT_EQ(complaint_of_choice(free, nodal(3)), "");
   free = three_pairs();
   free.kinds[0] = mbs_export::ModeKind::rigid;
-  EXPECT_NE(complaint(free, {}).find("mode 1 is a rigid-body motion"), std::string::npos);
+  EXPECT_NE(complaint_of_choice(free, {}).find("mode 1 is a rigid-body motion"), std::string::npos);
 }
 
 /// The body with n of the 60 nodes of its ring.

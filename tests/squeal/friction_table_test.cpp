@@ -48,7 +48,7 @@ FrictionTable sampled(int n_speeds, int n_pressures, const std::vector<double>& 
 }
 
 /// Largest error of the value within the table, away from the end points.
-double error_of(int n)
+double error_of_table(int n)
 {
   const FrictionTable table = sampled(n, n, {100.0, 200.0});
   double largest = 0.0;
@@ -63,7 +63,7 @@ double error_of(int n)
 TEST(FrictionTable, ConvergesToTheLawItSamples)
 {
   // Slopes of parabolas and weighted harmonic means are of second order: mu is of third.
-  const double coarse = error_of(11), fine = error_of(21);
+  const double coarse = error_of_table(11), fine = error_of_table(21);
   EXPECT_LT(fine, 2e-5);
   EXPECT_GT(std::log2(coarse / fine), 2.7);
 }

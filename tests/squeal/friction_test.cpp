@@ -34,7 +34,7 @@ SquealOptions stribeck_options(ContactLaw law = ContactLaw::bilateral)
 }
 
 /// A state with slopes, rates and, on the lower side, a pulled pad.
-const RingMotion<double> large_motion{4e-4, 0.01, -0.02, 1.5, 20.0, -30.0};
+const RingMotion<double> large_ring_motion{4e-4, 0.01, -0.02, 1.5, 20.0, -30.0};
 
 TEST(Friction, FallsFromTheStaticToTheKineticCoefficient)
 {
@@ -112,8 +112,8 @@ TEST(Friction, WithoutARiseIsCoulombs)
   const PadContact coulomb = pad_on_plate(constant);
   constant.friction.regularisation = 1e-9;
   const PadContact regularised = pad_on_plate(constant);
-  const auto a = pad_state(coulomb, large_motion, 20.0, 1.0);
-  const auto b = pad_state(regularised, large_motion, 20.0, 1.0);
+  const auto a = pad_state(coulomb, large_ring_motion, 20.0, 1.0);
+  const auto b = pad_state(regularised, large_ring_motion, 20.0, 1.0);
   EXPECT_NEAR(a.N, b.N, 1e-9);  // (1e-9 / 2)^2 relative
   EXPECT_NEAR(a.f_t, b.f_t, 1e-9);
 }

@@ -29,14 +29,14 @@ const SpeedRange onset{.from = 4.25 * pi, .to = 5.0 * pi, .count = 31};
 const SpeedRange fast{.from = 6.0 * pi, .to = 20.0 * pi, .count = 8};
 
 /// SQUEAL reference values, 1749.75 Hz: shooting with finite differences.
-struct Reference {
+struct ReferencePoint {
   double speed_by_pi, velocity, frequency_Hz;
 };
 
-void expect_points(const LimitCycleBranch& branch, const std::vector<Reference>& references,
-                   const Reference& tolerance)
+void expect_points(const LimitCycleBranch& branch, const std::vector<ReferencePoint>& references,
+                   const ReferencePoint& tolerance)
 {
-  for (const Reference& reference : references) {
+  for (const ReferencePoint& reference : references) {
     bool found = false;
     for (const BranchPoint& point : branch.points) {
       if (std::abs(point.speed / pi - reference.speed_by_pi) > 1e-9) continue;
@@ -54,7 +54,7 @@ void expect_points(const LimitCycleBranch& branch, const std::vector<Reference>&
 TEST(LimitCycleBranch, IsThatOfTheReferenceWithBilateralContact)
 {
   // The reference steps over the kinks of |N|, which leaves it up to 8e-5 of the velocity.
-  const Reference tolerance{0.0, 1.5e-4, 1e-4};
+  const ReferencePoint tolerance{0.0, 1.5e-4, 1e-4};
   const LimitCycleBranch branch = branch_over(ContactLaw::bilateral, onset);
   EXPECT_FALSE(branch.lost_below);
   expect_points(branch,
@@ -75,7 +75,7 @@ TEST(LimitCycleBranch, IsThatOfTheReferenceWithUnilateralContact)
 {
   // Where contact is lost, steps over the kinks and finite differences leave the reference 1e-3 of
   // the velocity; the next test has a sharper one.
-  const Reference tolerance{0.0, 1.2e-3, 5e-3};
+  const ReferencePoint tolerance{0.0, 1.2e-3, 5e-3};
   expect_points(branch_over(ContactLaw::unilateral, onset),
                 {{4.275, 1.227312, 1772.09693},
                  {4.3, 3.738524, 1772.10374},

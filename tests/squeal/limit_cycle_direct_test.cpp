@@ -22,12 +22,12 @@ Disc reference_disc(double f_Hz = 1672.13)
 
 /// SQUEAL reference values at 6 pi, 1672.13 Hz: shooting with DOP853 at fixed steps across the
 /// kinks of the contact law, which leave it 1e-5 (unilateral) and less.
-struct Reference {
+struct DirectReference {
   ContactLaw law;
   double frequency_Hz, velocity, displacement, N_min, N_max, slip_speed_min;
   double multiplier;  ///< the largest but the one along the cycle
 };
-const Reference references[] = {
+const DirectReference direct_references[] = {
     {ContactLaw::bilateral, 1696.8532997475254, 6.727395672604715, 0.0006309367316120831,
      -1783.0913562400988, 5793.708263785931, 1.883089309387372, 0.9980871398726203},
     {ContactLaw::unilateral, 1691.1221391516015, 12.16940760227354, 0.0011440526826268218, 0.0,
@@ -37,7 +37,7 @@ const Reference references[] = {
 
 TEST(DirectLimitCycle, IsThatOfTheReferenceForEachContactLaw)
 {
-  for (const Reference& reference : references) {
+  for (const DirectReference& reference : direct_references) {
     SCOPED_TRACE(static_cast<int>(reference.law));
     const DirectLimitCycle cycle = limit_cycle_direct(
         FlexibleDisc(reference_disc(), reference_options(reference.law)), 6.0 * pi);
@@ -76,7 +76,7 @@ TEST(DirectLimitCycle, KeepsADisturbanceAlongItself)
 {
   // x' at x_0 is an eigenvector of the monodromy matrix for 1; the tolerance is the one at which
   // the step is taken for small enough. It would be 1e-3 without the search for the kinks.
-  for (const Reference& reference : references) {
+  for (const DirectReference& reference : direct_references) {
     const auto cycle = limit_cycle_direct(
         FlexibleDisc(reference_disc(), reference_options(reference.law)), 6.0 * pi);
     EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-6) << static_cast<int>(reference.law);
@@ -161,7 +161,7 @@ TEST(DirectLimitCycle, IsNotTheStateOfRest)
                                 {start.x, 1.0 / start.frequency_Hz}));
 }
 
-SquealOptions two_pads(ContactLaw law, double angle)
+SquealOptions two_pads_apart(ContactLaw law, double angle)
 {
   SquealOptions options = reference_options(law);
   options.pads.push_back(options.pads.front());
@@ -176,7 +176,7 @@ TEST(DirectLimitCycle, ExistsBetweenTwoPadPairsWithEachContactLaw)
   for (const ContactLaw law :
        {ContactLaw::bilateral, ContactLaw::unilateral, ContactLaw::signed_force}) {
     for (const double angle : {0.3, pi / 3.0, 1.2, pi}) {
-      const FlexibleDisc brake(disc, two_pads(law, angle));
+      const FlexibleDisc brake(disc, two_pads_apart(law, angle));
       for (const double by_pi : {6.5, 12.0, 20.0}) {
         SCOPED_TRACE(testing::Message()
                      << static_cast<int>(law) << ", " << angle << " rad, " << by_pi << " pi");
@@ -191,7 +191,7 @@ TEST(DirectLimitCycle, ExistsBetweenTwoPadPairsWithEachContactLaw)
 
 TEST(DirectLimitCycle, IsTheSameByEachDetour)
 {
-  const FlexibleDisc brake(reference_disc(), two_pads(ContactLaw::unilateral, 0.3));
+  const FlexibleDisc brake(reference_disc(), two_pads_apart(ContactLaw::unilateral, 0.3));
   const DirectLimitCycle cycle = limit_cycle_direct(brake, 8.0 * pi);
   const Detour branch = cycle_by_continuation(brake, 8.0 * pi),
                transient = cycle_by_transient(brake, 8.0 * pi);
@@ -226,7 +226,7 @@ TEST(DirectLimitCycle, HasOnePeriodAfterATransientToo)
 TEST(DirectLimitCycle, SaysWhyADetourLeadsNowhere)
 {
   // With one sinusoidal mode pair and two pads the brake is unstable only above 4.24 pi.
-  const FlexibleDisc stable(reference_disc(), two_pads(ContactLaw::unilateral, 0.3));
+  const FlexibleDisc stable(reference_disc(), two_pads_apart(ContactLaw::unilateral, 0.3));
   const Detour branch = cycle_by_continuation(stable, 3.0 * pi);
   EXPECT_FALSE(branch.cycle);
   EXPECT_NE(branch.said.find("no Hopf point"), std::string::npos) << branch.said;

@@ -30,22 +30,23 @@ LimitCycle cycle_of(ContactLaw law, const TransientCase& run)
 
 /// SQUEAL reference values at 6 pi, 1672.13 Hz: periodic solutions by shooting with DOP853; times
 /// from its transients.
-struct Reference {
+struct SteadyReference {
   ContactLaw law;
   double frequency_Hz, velocity, displacement, N_max, t_zero_force, t_99;
 };
-const Reference references[] = {{ContactLaw::bilateral, 1696.8532997475254, 6.727395672604715,
-                                 0.0006309367316120831, 5793.708263785931, 3.096350, 3.930615},
-                                {ContactLaw::unilateral, 1691.1221391516015, 12.16940760227354,
-                                 0.0011440526826268218, 8896.455713821026, 3.096350, 4.454},
-                                {ContactLaw::signed_force, 1696.8746237948594, 27.165229566368815,
-                                 0.0025470598553203874, 17764.177528531618, 3.096350, 4.792}};
+const SteadyReference steady_references[] = {
+    {ContactLaw::bilateral, 1696.8532997475254, 6.727395672604715, 0.0006309367316120831,
+     5793.708263785931, 3.096350, 3.930615},
+    {ContactLaw::unilateral, 1691.1221391516015, 12.16940760227354, 0.0011440526826268218,
+     8896.455713821026, 3.096350, 4.454},
+    {ContactLaw::signed_force, 1696.8746237948594, 27.165229566368815, 0.0025470598553203874,
+     17764.177528531618, 3.096350, 4.792}};
 
 TEST(LimitCycle, IsThatOfTheReferenceForEachContactLaw)
 {
   // The splitting error of 40 steps per period, which falls with the square of the step (next
   // test): frequency 7e-7, velocity 1e-4, displacement 1e-4, relative; tolerances are twice that.
-  for (const Reference& reference : references) {
+  for (const SteadyReference& reference : steady_references) {
     const LimitCycle cycle = cycle_of(reference.law, reference_run());
     SCOPED_TRACE(static_cast<int>(reference.law));
     EXPECT_TRUE(cycle.settled);
@@ -62,7 +63,7 @@ TEST(LimitCycle, IsThatOfTheReferenceForEachContactLaw)
 
 TEST(LimitCycle, ConvergesWithTheSquareOfTheStep)
 {
-  const Reference& reference = references[0];
+  const SteadyReference& reference = steady_references[0];
   const auto velocity_error = [&](int steps) {
     return std::abs(cycle_of(reference.law, reference_run(7.7, steps)).pad_velocity -
                     reference.velocity);

@@ -19,36 +19,36 @@ namespace {
 using std::numbers::pi;
 using test::source_disc;
 
-ModelOptions rigid_study(const RigidDiscStudy& study)
+ModelOptions study_of_rigid_disc(const RigidDiscStudy& study)
 {
   return {.model = study,
           .study = {.speeds = {.from = pi, .to = 20.0 * pi, .count = 20},
                     .analyses = {"eigenvalues", "critical-speed"}}};
 }
 
-SquealResults of_study(const ModelOptions& options)
+SquealResults results_of_study(const ModelOptions& options)
 {
   return run(*model_brake(options), options.study);
 }
 
 /// SQUEAL reference values at 20 pi by shooting over the kinks of the contact law with finite
 /// differences: the multipliers along their cycles are 1 to 6e-6 and 6e-5 only.
-struct Reference {
+struct ModelReference {
   ContactLaw law;
   double frequency_Hz, velocity, tolerance;
 };
 
 TEST(RigidModel, HasTheLimitCyclesOfTheReferenceDirectly)
 {
-  const Reference references[] = {{ContactLaw::bilateral, 1740.888105, 11.521439, 1e-4},
-                                  {ContactLaw::unilateral, 1737.862, 59.034, 1e-4},
-                                  {ContactLaw::signed_force, 1740.619, 64.689, 1e-4}};
-  for (const Reference& reference : references) {
+  const ModelReference references[] = {{ContactLaw::bilateral, 1740.888105, 11.521439, 1e-4},
+                                       {ContactLaw::unilateral, 1737.862, 59.034, 1e-4},
+                                       {ContactLaw::signed_force, 1740.619, 64.689, 1e-4}};
+  for (const ModelReference& reference : references) {
     SCOPED_TRACE(static_cast<int>(reference.law));
-    ModelOptions options = rigid_study({.disc = source_disc(reference.law)});
+    ModelOptions options = study_of_rigid_disc({.disc = source_disc(reference.law)});
     options.study.analyses = {"limit-cycle-direct"};
     options.study.limit_cycle_direct = DirectCase{20.0 * pi};
-    const DirectLimitCycle cycle = of_study(options).limit_cycle_direct.value();
+    const DirectLimitCycle cycle = results_of_study(options).limit_cycle_direct.value();
     EXPECT_NEAR(cycle.frequency_Hz, reference.frequency_Hz, 1e-3);
     EXPECT_NEAR(cycle.pad_velocity, reference.velocity, reference.tolerance * reference.velocity);
     EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-6);
@@ -58,14 +58,14 @@ TEST(RigidModel, HasTheLimitCyclesOfTheReferenceDirectly)
 
 TEST(RigidModel, HasAMapWhoseBoundaryIsTheCriticalSpeed)
 {
-  ModelOptions options = rigid_study({.disc = source_disc()});
+  ModelOptions options = study_of_rigid_disc({.disc = source_disc()});
   options.study.analyses = {"stability-map", "critical-speed", "critical-values"};
   options.study.speeds = {.from = 5.0 * pi, .to = 15.0 * pi, .count = 21};
   options.study.map =
       MapCase{.parameter = MapParameter::friction, .from = 0.5, .to = 0.7, .count = 3};
   options.study.critical = {
       {.parameter = MapParameter::friction, .from = 0.3, .to = 0.9, .speed = 12.0 * pi}};
-  const SquealResults results = of_study(options);
+  const SquealResults results = results_of_study(options);
   const StabilityMap& map = results.map.value();
   for (Eigen::Index j = 0; j < map.speeds.size(); ++j)
     EXPECT_EQ(map.growth(1, j) > 0.0, map.speeds[j] > results.critical_speed->speed);
@@ -81,10 +81,11 @@ TEST(RigidModel, HasAMapWhoseBoundaryIsTheCriticalSpeed)
 
 TEST(RigidModel, HasNoLimitCycleInItsLinearEquations)
 {
-  ModelOptions options = rigid_study({.disc = source_disc(), .equations = RigidEquations::linear});
+  ModelOptions options =
+      study_of_rigid_disc({.disc = source_disc(), .equations = RigidEquations::linear});
   options.study.analyses = {"limit-cycle-direct"};
   options.study.limit_cycle_direct = DirectCase{20.0 * pi};
-  EXPECT_THROW(of_study(options), Error);
+  EXPECT_THROW(results_of_study(options), Error);
 }
 
 /// A mass on a belt whose friction falls over the speed, with enough damping to be stable above

@@ -17,18 +17,18 @@ namespace {
 
 using namespace test;
 
-constexpr double speed = 20.0;  // rad/s
+constexpr double speed_of_record = 20.0;  // rad/s
 
 /// A record of v(t) = (1 + 0.4 cos(6 speed t)) cos(2 pi 1000 t) m/s, sampled 16 times in a period.
 Transient modulated(double duration)
 {
   Transient run{};
-  run.speed = speed;
+  run.speed = speed_of_record;
   run.finished = true;
   run.step = 1.0 / 16e3;
   run.band = {Sampling::whole, 16e3, 8e3};
   for (int i = 0; i < static_cast<int>(16e3 * duration); ++i) {
-    const double t = i * run.step, size = 1.0 + 0.4 * std::cos(6.0 * speed * t);
+    const double t = i * run.step, size = 1.0 + 0.4 * std::cos(6.0 * speed_of_record * t);
     run.history.t.push_back(t);
     run.history.pad_velocity.push_back(size * std::cos(2e3 * pi * t));
     run.history.pad_displacement.push_back(1e-4 + size * std::sin(2e3 * pi * t) / (2e3 * pi));
@@ -37,7 +37,7 @@ Transient modulated(double duration)
     run.envelope.pad_velocity.push_back(size);
     run.envelope.pad_displacement.push_back(1e-4 + size / (2e3 * pi));
     run.windows.t.push_back(t);
-    run.windows.speed.push_back(speed);
+    run.windows.speed.push_back(speed_of_record);
     for (auto* N : {&run.windows.N_up_min, &run.windows.N_lo_min}) N->push_back(1000.0 - size);
     for (auto* N : {&run.windows.N_up_max, &run.windows.N_lo_max}) N->push_back(1000.0 + size);
     run.windows.open.push_back(size > 1.0 ? 0.25 : 0.0);
@@ -88,7 +88,7 @@ TEST(MotionStatistics, FindTheLinesThatTheRotationMakes)
 }
 
 /// At 6 pi rad/s, from near its end.
-Transient squealing(const Disc& disc, double duration)
+Transient squealing_run(const Disc& disc, double duration)
 {
   return transient(FlexibleDisc(disc, reference_options(ContactLaw::bilateral)),
                    {.speed = 6.0 * pi,
@@ -99,7 +99,7 @@ Transient squealing(const Disc& disc, double duration)
 
 TEST(MotionStatistics, OfAnAxisymmetricDiscAreThoseOfItsLimitCycle)
 {
-  const Transient run = squealing(disc_of({kirchhoff_3(1672.13)}), 4.0);
+  const Transient run = squealing_run(disc_of({kirchhoff_3(1672.13)}), 4.0);
   const LimitCycle cycle = limit_cycle(run);
   const MotionStatistics found = motion_statistics(run);
   EXPECT_TRUE(found.settled);
@@ -117,7 +117,7 @@ TEST(MotionStatistics, OfASplitPairHaveLinesAtTwiceItsDiameters)
   // coefficients, and the motion on their torus has lines at f + 6 k Omega / (2 pi) alone.
   PlatePair pair = kirchhoff_3(1672.13);
   pair.split = 4e-3;
-  const MotionStatistics found = motion_statistics(squealing(disc_of({pair}), 12.0));
+  const MotionStatistics found = motion_statistics(squealing_run(disc_of({pair}), 12.0));
   EXPECT_TRUE(found.settled) << found.drift;
   ASSERT_GE(found.lines.size(), 3u);
   for (const MotionStatistics::Line& line : found.lines) {

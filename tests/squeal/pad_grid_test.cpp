@@ -19,14 +19,14 @@ namespace {
 
 using namespace test;
 
-SquealOptions options_with(const PadPair& pad, ContactLaw law = ContactLaw::bilateral)
+SquealOptions options_with_grid(const PadPair& pad, ContactLaw law = ContactLaw::bilateral)
 {
   SquealOptions options = reference_options(law);
   options.pads = {pad};
   return options;
 }
 
-PadPair grid_pad(double sector, int points)
+PadPair pad_of_grid(double sector, int points)
 {
   PadPair pad = reference_options().pads.front();
   pad.grid = PadGrid{.sector = sector, .points = points};
@@ -35,7 +35,7 @@ PadPair grid_pad(double sector, int points)
 
 TEST(PadGrid, SharesStiffnessAndPreloadAmongPointsInTheMiddleOfEqualParts)
 {
-  const PadSystem pads = pad_system(options_with(grid_pad(0.6, 3)), ring_radius);
+  const PadSystem pads = pad_system(options_with_grid(pad_of_grid(0.6, 3)), ring_radius);
   ASSERT_EQ(pads.points.size(), 3u);
   double stiffness = 0.0, preload = 0.0;
   for (const PointPair& point : pads.points) {
@@ -53,8 +53,8 @@ TEST(PadGrid, OfOnePointOrNoWidthIsThePadOfOnePoint)
 {
   const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
   const Eigen::MatrixXd one = state_matrix(disc, reference_options(), 18.0);
-  for (const PadPair& pad : {grid_pad(0.5, 1), grid_pad(1e-9, 7)})
-    EXPECT_LT((state_matrix(disc, options_with(pad), 18.0) - one).norm(), 1e-8 * one.norm());
+  for (const PadPair& pad : {pad_of_grid(0.5, 1), pad_of_grid(1e-9, 7)})
+    EXPECT_LT((state_matrix(disc, options_with_grid(pad), 18.0) - one).norm(), 1e-8 * one.norm());
 }
 
 TEST(PadGrid, ConvergesToTheIntegralOverTheSector)
@@ -65,7 +65,7 @@ TEST(PadGrid, ConvergesToTheIntegralOverTheSector)
   const double mean = 0.5 + std::sin(3.0 * sector) / (6.0 * sector);
   const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
   const auto stiffness = [&](int points) {
-    SquealOptions options = options_with(grid_pad(sector, points));
+    SquealOptions options = options_with_grid(pad_of_grid(sector, points));
     options.friction.kinetic = 0.0;
     options.pads[0].preload = 1e-9;
     const Eigen::MatrixXd A = state_matrix(disc, options, 18.0);
@@ -81,7 +81,7 @@ TEST(PadGrid, LosesContactPointByPoint)
 {
   // Tilted so that one end of the face leaves while the other one presses.
   const Disc disc = disc_of({kirchhoff_3()});
-  const SquealOptions options = options_with(grid_pad(0.6, 4), ContactLaw::unilateral);
+  const SquealOptions options = options_with_grid(pad_of_grid(0.6, 4), ContactLaw::unilateral);
   ContactKick kick(disc, options, 18.0);
   ModalState x{Eigen::Vector2d(0.0, 1.5e-3), Eigen::Vector2d::Zero()};
   const ContactResult<double> pad = kick.apply(x, 0.0, 1e-9).front();
@@ -108,21 +108,21 @@ mbs_export::ModalBody body_with_two_rings()
 
 PadPair pad_on(const std::vector<std::string>& rings, int points = 3)
 {
-  PadPair pad = grid_pad(0.5, points);
+  PadPair pad = pad_of_grid(0.5, points);
   pad.grid->rings = rings;
   return pad;
 }
 
 Disc disc_for(const PadPair& pad)
 {
-  return make_disc(body_with_two_rings(), ring_choice(options_with(pad)), {});
+  return make_disc(body_with_two_rings(), ring_choice(options_with_grid(pad)), {});
 }
 
 TEST(PadGrid, OnTwoRingsIsTheMeanOfThePadsOnEach)
 {
   // Linear contact is linear in stiffness and preload, of which each ring has half.
   const auto matrix = [](const PadPair& pad) {
-    return state_matrix(inertial_disc(disc_for(pad)), options_with(pad), 18.0);
+    return state_matrix(inertial_disc(disc_for(pad)), options_with_grid(pad), 18.0);
   };
   const Eigen::MatrixXd both = matrix(pad_on({"track", "inner"}));
   const Eigen::MatrixXd mean = 0.5 * (matrix(pad_on({"track"})) + matrix(pad_on({"inner"})));
@@ -133,7 +133,7 @@ TEST(PadGrid, OnTwoRingsIsTheMeanOfThePadsOnEach)
 TEST(PadGrid, SharesItsForcesAmongAllRings)
 {
   const PadSystem pads =
-      pad_system(options_with(pad_on({"inner", "track"})), {{"track", 0.13}, {"inner", 0.11}});
+      pad_system(options_with_grid(pad_on({"inner", "track"})), {{"track", 0.13}, {"inner", 0.11}});
   ASSERT_EQ(pads.points.size(), 6u);
   double preload = 0.0;
   for (const PointPair& point : pads.points) preload += point.contact.preload;
@@ -148,7 +148,7 @@ TEST(PadGrid, OnTwoRingsGrowsInTimeAsItsEigenvaluesSayUnderEveryIntegrator)
 {
   // What the integrators leave is 1e-3 1/s; the decaying wave leaves as much to the fit.
   const PadPair pad = pad_on({"track", "inner"}, 2);
-  const SquealOptions options = options_with(pad);
+  const SquealOptions options = options_with_grid(pad);
   const Disc disc = disc_for(pad);
   const double speed = 12.0 * pi;
   const double growth =
@@ -169,14 +169,14 @@ TEST(PadGrid, OnTwoRingsHasALimitCycle)
 {
   const PadPair pad = pad_on({"track", "inner"}, 2);
   const DirectLimitCycle cycle = limit_cycle_direct(
-      FlexibleDisc(disc_for(pad), options_with(pad, ContactLaw::unilateral)), 12.0 * pi);
+      FlexibleDisc(disc_for(pad), options_with_grid(pad, ContactLaw::unilateral)), 12.0 * pi);
   EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-6);
   EXPECT_EQ(stability_of(cycle), CycleStability::stable);
 }
 
 TEST(PadGrid, RefusesARingThatTheDiscDoesNotHave)
 {
-  EXPECT_THROW(pad_system(options_with(pad_on({"outer"})), ring_radius), Error);
+  EXPECT_THROW(pad_system(options_with_grid(pad_on({"outer"})), ring_radius), Error);
   EXPECT_THROW(make_disc(body_with_two_rings(), RingChoice{.names = {"track", "outer"}}, {}),
                Error);
 }
@@ -184,8 +184,8 @@ TEST(PadGrid, RefusesARingThatTheDiscDoesNotHave)
 TEST(PadGrid, HasEventsOfEveryPointUnderItsPad)
 {
   const Disc disc = disc_of({kirchhoff_3()});
-  SquealOptions options = options_with(grid_pad(0.6, 3), ContactLaw::unilateral);
-  options.pads.push_back(grid_pad(0.6, 3));
+  SquealOptions options = options_with_grid(pad_of_grid(0.6, 3), ContactLaw::unilateral);
+  options.pads.push_back(pad_of_grid(0.6, 3));
   options.pads[1].angle = 2.0;
   // Three times the compression of the pads at rest, so that every pad leaves.
   const TransientCase run{.speed = 6.0 * pi,

@@ -39,21 +39,21 @@ SquealOptions options_with(const PadPair& pad, ContactLaw law = ContactLaw::bila
   return options;
 }
 
-PadPair reference_pad()
+PadPair pair_of_reference()
 {
   return reference_options().pads.front();
 }
 
 PadPair grid_pad(double sector, int points)
 {
-  PadPair pad = reference_pad();
+  PadPair pad = pair_of_reference();
   pad.grid = PadGrid{.sector = sector, .points = points};
   return pad;
 }
 
 TEST(PadBody, HasTheFrequenciesOfItsSuspension)
 {
-  PadPair pad = reference_pad();
+  PadPair pad = pair_of_reference();
   pad.body = PadBody{.mass = 0.5, .axial = Suspension{2e6, 0.0}};
   const PadSystem two = pad_system(options_with(pad), ring_radius);
   EXPECT_NEAR(two.omega[0], 2000.0, 1e-9);
@@ -80,7 +80,7 @@ TEST(PadBody, WithoutMassIsTheMasslessPadOnItsLiningAndSuspensionInSeries)
   const Disc disc = disc_of({kirchhoff_3()});
   const InertialDisc inertial = inertial_disc(disc);
   const SquealOptions massless = reference_options();
-  PadPair pad = reference_pad();
+  PadPair pad = pair_of_reference();
   pad.stiffness = 1e7;
   pad.body = PadBody{.mass = 1e-3, .axial = Suspension{1.5e7, 0.0}};
   const auto expected = least_stable_eigenvalue(state_matrix(inertial, massless, 6.0 * pi));
@@ -184,7 +184,7 @@ TEST(PadBody, GrowsInTimeAsItsEigenvaluesSay)
 TEST(PadBody, HasALimitCycleWithContactLoss)
 {
   const Disc disc = disc_of({kirchhoff_3()});
-  PadPair pad = reference_pad();
+  PadPair pad = pair_of_reference();
   pad.stiffness = 2e7;
   pad.body = PadBody{.mass = 0.1, .axial = Suspension{9e6, 2.0}};
   const DirectLimitCycle cycle =
@@ -273,7 +273,7 @@ TEST(PadBody, LosesEnergyOnlyToItsDampersWithoutFriction)
 
 TEST(PadBody, RefusesWhatCannotMove)
 {
-  PadPair pad = reference_pad();
+  PadPair pad = pair_of_reference();
   pad.body = PadBody{.mass = 1.0};
   EXPECT_THROW(pad_system(options_with(pad), ring_radius), Error);
   pad.body = PadBody{.mass = 1.0, .tangential = Suspension{1e7, 0.0}};

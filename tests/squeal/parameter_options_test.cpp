@@ -45,7 +45,7 @@ SquealOptions full_options()
   return options;
 }
 
-std::string complaint(const Brake& brake, MapParameter parameter, double value)
+std::string complaint_of_value(const Brake& brake, MapParameter parameter, double value)
 {
   try {
     brake.with(parameter, value);
@@ -102,7 +102,7 @@ TEST(Parameters, OfABodyChangeItsStateMatrix)
     const double value = row.name == "friction" ? 0.3 : row.name.ends_with("static") ? 0.9 : 0.07;
     double change = 0.0;
     for (const FlexibleDisc& brake : brakes) {
-      if (!complaint(brake, {row.name}, value).empty()) continue;
+      if (!complaint_of_value(brake, {row.name}, value).empty()) continue;
       const Eigen::MatrixXd A = brake.state_matrix(8.0);
       const Eigen::MatrixXd changed = brake.with({row.name}, value)->state_matrix(8.0);
       // Modes of the pads come with any sign: their spectra are compared.
@@ -195,9 +195,10 @@ TEST(Parameters, OfOnePadLeaveTheOthersAsTheyAre)
 TEST(Parameters, OfPadsThatAreNotThereAreRefused)
 {
   const FlexibleDisc brake(disc_of({kirchhoff_3()}), full_options());
-  EXPECT_NE(complaint(brake, {"stiffness", 2}, 1e6).find("\"pads[2].stiffness\" cannot vary"),
-            std::string::npos);
-  EXPECT_NE(complaint(brake, {"pads.angle_deg"}, 10.0).find("pads[2].angle_deg"),
+  EXPECT_NE(
+      complaint_of_value(brake, {"stiffness", 2}, 1e6).find("\"pads[2].stiffness\" cannot vary"),
+      std::string::npos);
+  EXPECT_NE(complaint_of_value(brake, {"pads.angle_deg"}, 10.0).find("pads[2].angle_deg"),
             std::string::npos);
   for (const std::string_view key :
        {"pads[0].stiffness", "pads[x].stiffness", "pads[1].rubbing", "pads[1]", "pads[1].",
@@ -208,16 +209,17 @@ TEST(Parameters, OfPadsThatAreNotThereAreRefused)
 TEST(Parameters, ThatABrakeLacksAreNamed)
 {
   const FlexibleDisc brake(disc_of({kirchhoff_3()}), reference_options());
-  EXPECT_EQ(complaint(brake, MapParameter::damping, 1.0), "");
-  const std::string text = complaint(brake, {"pads.body.mass"}, 0.3);
+  EXPECT_EQ(complaint_of_value(brake, MapParameter::damping, 1.0), "");
+  const std::string text = complaint_of_value(brake, {"pads.body.mass"}, 0.3);
   EXPECT_NE(text.find("\"pads.body.mass\" cannot vary"), std::string::npos) << text;
-  EXPECT_NE(complaint(brake, {"friction.static"}, 0.9), "");  // Coulomb's law has none
+  EXPECT_NE(complaint_of_value(brake, {"friction.static"}, 0.9), "");  // Coulomb's law has none
   // "friction" moves all of mu, here with a static coefficient 0.2 below the kinetic one.
   SquealOptions rising = full_options();
   rising.friction.rise = -0.2;
   const FlexibleDisc brake_of_rising(disc_of({kirchhoff_3()}), rising);
-  EXPECT_EQ(complaint(brake_of_rising, MapParameter::friction, 0.3), "");
-  EXPECT_NE(complaint(brake_of_rising, MapParameter::friction, 0.1).find("begin the range at 0.2"),
+  EXPECT_EQ(complaint_of_value(brake_of_rising, MapParameter::friction, 0.3), "");
+  EXPECT_NE(complaint_of_value(brake_of_rising, MapParameter::friction, 0.1)
+                .find("begin the range at 0.2"),
             std::string::npos);
 }
 

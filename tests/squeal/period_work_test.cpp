@@ -16,12 +16,12 @@ namespace {
 
 using namespace test;
 
-StabilityCase over_speeds(double from, double to, int count)
+StabilityCase speeds_of_periods(double from, double to, int count)
 {
   return {.over = {}, .from = from * pi, .to = to * pi, .count = count};
 }
 
-std::vector<StabilityBranch> unstable_ones(const StabilityTable& table)
+std::vector<StabilityBranch> unstable_rows(const StabilityTable& table)
 {
   std::vector<StabilityBranch> rows;
   for (const StabilityBranch& row : table.branches)
@@ -43,14 +43,14 @@ TEST(PeriodWork, OfAllForcesIsWhatAModeGains)
   damped.pads[0].damping = 3.0;
   SquealOptions plates = reference_options();
   plates.pads[0].body = PadBody{.mass = 0.4, .axial = Suspension{2e7, 30.0}};
-  StabilityCase over_friction = over_speeds(0.1, 0.3, 9);
+  StabilityCase over_friction = speeds_of_periods(0.1, 0.3, 9);
   over_friction.over = MapParameter::friction;
   over_friction.speed = 6.0 * pi;
   int n_fed = 0;
   for (const SquealOptions& options : {reference_options(), damped, plates}) {
-    for (const StabilityCase& search : {over_speeds(1.0, 20.0, 20), over_friction}) {
+    for (const StabilityCase& search : {speeds_of_periods(1.0, 20.0, 20), over_friction}) {
       const FlexibleDisc brake(disc_of({kirchhoff_2(), kirchhoff_3(), kirchhoff_4()}), options);
-      for (const StabilityBranch& row : unstable_ones(unstable_modes(brake, search))) {
+      for (const StabilityBranch& row : unstable_rows(unstable_modes(brake, search))) {
         ASSERT_TRUE(row.work);
         const double gain = 2.0 * row.worst.growth / row.worst.frequency_Hz;
         EXPECT_NEAR(sum_of(*row.work), gain, 1e-6 * std::abs(row.work->friction) + 1e-10);
@@ -68,12 +68,12 @@ TEST(PeriodWork, ComesBackFromItsFile)
   SquealResults written;
   written.stability_table =
       unstable_modes(FlexibleDisc(disc_of({kirchhoff_2(), kirchhoff_3()}), reference_options()),
-                     over_speeds(1.0, 20.0, 4));
+                     speeds_of_periods(1.0, 20.0, 4));
   write_results(path, written, {});
   const StabilityTable a = *written.stability_table;
   const StabilityTable b = read_results(path).stability_table.value();
   ASSERT_EQ(b.branches.size(), a.branches.size());
-  ASSERT_FALSE(unstable_ones(a).empty());
+  ASSERT_FALSE(unstable_rows(a).empty());
   for (std::size_t j = 0; j < a.branches.size(); ++j) {
     ASSERT_EQ(b.branches[j].work.has_value(), a.branches[j].is_unstable());
     if (!a.branches[j].work) continue;
@@ -102,7 +102,7 @@ TEST(PeriodWork, IsThatOnTheModesWithInertia)
   options.pads.push_back({.angle = 1.1, .stiffness = 4e6, .damping = 1.0, .preload = 1500.0});
   const FlexibleDisc brake(disc_on_ring(body, "track", {}), options);
   ASSERT_FALSE(brake.disc().compliance.empty());
-  const auto rows = unstable_ones(unstable_modes(brake, over_speeds(1.0, 20.0, 20)));
+  const auto rows = unstable_rows(unstable_modes(brake, speeds_of_periods(1.0, 20.0, 20)));
   ASSERT_FALSE(rows.empty());
   for (const StabilityBranch& row : rows) {
     EXPECT_NEAR(sum_of(row.work.value()), 2.0 * row.worst.growth / row.worst.frequency_Hz,

@@ -26,7 +26,7 @@ struct AtSpeed {
   Complex backward, forward;
 };
 
-constexpr double own = 1749.7487734358904, of_source = 1672.13;
+constexpr double own_frequency = 1749.7487734358904, frequency_of_source = 1672.13;
 
 const AtSpeed of_own_frequency[] = {
     {1.0, {-1.3767159027745908, 10993.839721502281}, {-20.501211673499988, 11123.282526385383}},
@@ -159,16 +159,16 @@ TEST(PrintedValues, OfTheReferencePairAreItsEigenvaluesAtAllSpeeds)
 {
   for (const AtSpeed& expected : of_own_frequency) {
     SCOPED_TRACE(expected.speed_by_pi);
-    expect_pair(expected, own);
+    expect_pair(expected, own_frequency);
   }
   for (const AtSpeed& expected : of_frequency_of_the_source) {
     SCOPED_TRACE(expected.speed_by_pi);
-    expect_pair(expected, of_source);
+    expect_pair(expected, frequency_of_source);
   }
 }
 
 /// Plate modes with a modal damping ratio.
-InertialDisc plate(const std::vector<PlatePair>& modes, double zeta)
+InertialDisc plate_of_pairs(const std::vector<PlatePair>& modes, double zeta)
 {
   auto body = analytic_body(modes);
   body.C = (2.0 * zeta * body.omega).asDiagonal();
@@ -181,7 +181,7 @@ TEST(PrintedValues, OfAllPlateModesAreWhatGrowsAtEachDamping)
   constexpr double rounding = 1e-8;
   for (const Growing& expected : all_modes) {
     SCOPED_TRACE(testing::Message() << "zeta " << expected.zeta << " at " << expected.speed_by_pi);
-    auto found = oscillations(state_matrix(plate(kirchhoff_modes(), expected.zeta),
+    auto found = oscillations(state_matrix(plate_of_pairs(kirchhoff_modes(), expected.zeta),
                                            reference_options(), expected.speed_by_pi * pi));
     std::erase_if(found, [](Complex lambda) { return !(lambda.real() > 1e-6); });
     std::ranges::sort(found, {}, [](Complex lambda) { return lambda.imag(); });
@@ -213,7 +213,8 @@ TEST(PrintedValues, OfThePairAmongItsNeighboursAreThoseOfEachSubset)
     ASSERT_GE(modes.size(), expected.n);
     modes.resize(expected.n);
     if (expected.n == 1) modes = {kirchhoff_3()};
-    const auto found = oscillations(state_matrix(plate(modes, 0.0), reference_options(), 6.0 * pi));
+    const auto found =
+        oscillations(state_matrix(plate_of_pairs(modes, 0.0), reference_options(), 6.0 * pi));
     const auto nearest = std::ranges::min(found, {}, [&](Complex lambda) {
       return std::abs(lambda.imag() / (2.0 * pi) - expected.f_Hz);
     });

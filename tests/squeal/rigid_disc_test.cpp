@@ -24,26 +24,26 @@ struct Reference {
   ContactLaw law;
   double N_lower, q_ddot_1, q_ddot_2, moment, q_ddot_1_free, q_ddot_2_free, spin_rate_free;
 };
-const Reference references[] = {
+const Reference rigid_references[] = {
     {ContactLaw::signed_force, -883.4703261619009, 592453.2064001065, -469604.26734382217,
      1450.8793639998594, 592477.7782081072, -469573.5524916761, -3071.5333341801065},
     {ContactLaw::bilateral, -888.1788224161496, 592447.6733410066, -469542.3929893004,
      1588.4670417065697, 592475.6848162989, -469507.37854014104, -3501.4997714942283},
     {ContactLaw::unilateral, 0.0, 591731.004932974, -469573.6050656989, 1518.5694675227705,
      591757.2689814349, -469540.77490663156, -3283.067340264656}};
-const RigidMotion<double> large_motion{{-0.005, 0.004}, {20.0, 35.0}, 6.0 * pi};
+const RigidMotion<double> large_rigid_motion{{-0.005, 0.004}, {20.0, 35.0}, 6.0 * pi};
 
 TEST(RigidDisc, AcceleratesLikeTheReferenceForEachContactLawAndDrive)
 {
-  for (const Reference& reference : references) {
+  for (const Reference& reference : rigid_references) {
     SCOPED_TRACE(static_cast<int>(reference.law));
     const RigidDisc disc = source_disc(reference.law);
-    const auto driven = accelerate(disc, large_motion, Drive::speed);
+    const auto driven = accelerate(disc, large_rigid_motion, Drive::speed);
     EXPECT_NEAR(driven.q_ddot[0], reference.q_ddot_1, 1e-11 * 6e5);
     EXPECT_NEAR(driven.q_ddot[1], reference.q_ddot_2, 1e-11 * 6e5);
     EXPECT_NEAR(driven.moment, reference.moment, 1e-11 * 1.5e3);
     EXPECT_EQ(driven.spin_rate, 0.0);
-    const auto free = accelerate(disc, large_motion, Drive::moment);
+    const auto free = accelerate(disc, large_rigid_motion, Drive::moment);
     EXPECT_NEAR(free.q_ddot[0], reference.q_ddot_1_free, 1e-11 * 6e5);
     EXPECT_NEAR(free.q_ddot[1], reference.q_ddot_2_free, 1e-11 * 6e5);
     EXPECT_NEAR(free.spin_rate, reference.spin_rate_free, 1e-11 * 6e5);
@@ -53,8 +53,8 @@ TEST(RigidDisc, AcceleratesLikeTheReferenceForEachContactLawAndDrive)
 
 TEST(RigidDisc, PressesThePadsLikeTheReference)
 {
-  for (const Reference& reference : references) {
-    const auto a = accelerate(source_disc(reference.law), large_motion, Drive::speed);
+  for (const Reference& reference : rigid_references) {
+    const auto a = accelerate(source_disc(reference.law), large_rigid_motion, Drive::speed);
     EXPECT_NEAR(a.upper.z, 0.010650210419556284, 1e-16);  // rounding of 1e-2
     EXPECT_NEAR(a.upper.z_dot, -2.599664993749955, 1e-13);
     EXPECT_NEAR(a.upper.slip_speed, 2.809564075877993, 1e-13);
@@ -71,7 +71,7 @@ TEST(RigidDisc, HasTheMatricesThatItsLinearisationGives)
 {
   // Both drives, all laws, several speeds: rounding of the largest entry of each matrix.
   for (const Drive drive : {Drive::speed, Drive::moment})
-    for (const Reference& reference : references)
+    for (const Reference& reference : rigid_references)
       for (const double speed : {pi, 6.0 * pi, 20.0 * pi}) {
         const RigidDisc disc = source_disc(reference.law);
         const RigidMatrices closed = rigid_disc_matrices(disc, speed);
@@ -115,7 +115,7 @@ TEST(RigidDisc, HasTheEigenvaluesOfTheReference)
 
 /// Critical speed over pi of the matrices after a change.
 template <class Change>
-double critical_by_pi(const Change& change)
+double critical_of_rigid_disc(const Change& change)
 {
   const StateMatrixAt matrices_at = [&](double speed) {
     RigidMatrices matrices = rigid_disc_matrices(source_disc(), speed);
@@ -129,7 +129,7 @@ TEST(RigidDisc, BecomesUnstableAtTheCriticalSpeedOfTheReference)
 {
   // SQUEAL reference value with 40 digits. The growth rate, known to 1e-11, rises by 0.03 per unit
   // of speed: 3e-10 rad/s, 1e-11 relative.
-  EXPECT_NEAR(critical_by_pi([](RigidMatrices&) {}), 9.478465586019481, 1e-9);
+  EXPECT_NEAR(critical_of_rigid_disc([](RigidMatrices&) {}), 9.478465586019481, 1e-9);
 }
 
 TEST(RigidDisc, HasNoCriticalSpeedWithoutFriction)
@@ -145,12 +145,12 @@ TEST(RigidDiscNote, NoReadingOfTheSourceGivesItsCriticalSpeed)
 {
   const RigidDisc disc = source_disc();
   const double M_A = 2.0 * disc.friction.kinetic * disc.radius * disc.preload;
-  const double printed = critical_by_pi([&](RigidMatrices& m) { m.C(0, 0) -= disc.d_t; });
-  const double along_axis = critical_by_pi([&](RigidMatrices& m) {
+  const double printed = critical_of_rigid_disc([&](RigidMatrices& m) { m.C(0, 0) -= disc.d_t; });
+  const double along_axis = critical_of_rigid_disc([&](RigidMatrices& m) {
     m.K(0, 1) -= M_A;
     m.K(1, 0) += M_A;
   });
-  const double workless = critical_by_pi([&](RigidMatrices& m) { m.K(1, 0) += M_A; });
+  const double workless = critical_of_rigid_disc([&](RigidMatrices& m) { m.K(1, 0) += M_A; });
   // SQUEAL reference values; tolerance as above.
   EXPECT_NEAR(printed, 7.071993454795727, 1e-9);
   EXPECT_NEAR(along_axis, 10.679787364222378, 1e-9);

@@ -9,9 +9,9 @@
 namespace chladni::squeal {
 namespace {
 
-double growth_at(const SlidingBrake::Model& model, double speed)
+double growth_of_model(const SlidingBrake::Model& model, double belt_speed)
 {
-  return least_stable_eigenvalue(SlidingBrake(model).state_matrix(speed)).real();
+  return least_stable_eigenvalue(SlidingBrake(model).state_matrix(belt_speed)).real();
 }
 
 /// A law whose slope at the velocity V is `slope`; its coefficient stays positive.
@@ -20,7 +20,7 @@ FrictionLaw with_slope(double slope, double V)
   return {.kinetic = 0.5, .rise = -slope * 0.5 * std::exp(V / 0.5), .decay_speed = 0.5};
 }
 
-constexpr double speed = 10.0, radius = 0.13;
+constexpr double belt_speed = 10.0, radius = 0.13;
 
 /// Pad and disc with N_0 mu'(V) = -a and equal frequencies of 318 Hz.
 TwoMasses equal_frequencies(double a)
@@ -33,7 +33,7 @@ TwoMasses equal_frequencies(double a)
           .d_2 = 12.0,
           .preload = 1000.0,
           .radius = radius,
-          .friction = with_slope(-a / 1000.0, speed * radius)};
+          .friction = with_slope(-a / 1000.0, belt_speed * radius)};
 }
 
 TEST(TwoMasses, WithEqualFrequenciesAreStableUpToTheDampersInSeries)
@@ -41,9 +41,9 @@ TEST(TwoMasses, WithEqualFrequenciesAreStableUpToTheDampersInSeries)
   // The third Hurwitz determinant is a_3^2 omega^2 (d_1 d_2 - a (d_1 + d_2)): closed form.
   // Round-off of the eigenvalues is 1e-13 of 2000 rad/s and more at the nearly double one.
   const double limit = 4.0 * 12.0 / (4.0 + 12.0);
-  EXPECT_NEAR(growth_at(equal_frequencies(limit), speed), 0.0, 1e-8);
-  EXPECT_LT(growth_at(equal_frequencies(0.99 * limit), speed), -1e-3);
-  EXPECT_GT(growth_at(equal_frequencies(1.01 * limit), speed), 1e-3);
+  EXPECT_NEAR(growth_of_model(equal_frequencies(limit), belt_speed), 0.0, 1e-8);
+  EXPECT_LT(growth_of_model(equal_frequencies(0.99 * limit), belt_speed), -1e-3);
+  EXPECT_GT(growth_of_model(equal_frequencies(1.01 * limit), belt_speed), 1e-3);
 }
 
 /// a_1 a_2 a_3 - a_1^2 a_4 - a_3^2 a_0 of det(M s^2 + (D - a [1, -1; -1, 1]) s + K), positive
@@ -68,8 +68,8 @@ TEST(TwoMasses, LoseStabilityWhereHurwitzSaysSo)
     (hurwitz(o, a) > 0.0 ? low : high) = a;
   }
   EXPECT_GT(low, 3.0 + 0.1);  // frequencies apart: more than the dampers in series
-  o.friction = with_slope(-low / o.preload, speed * radius);
-  EXPECT_NEAR(growth_at(o, speed), 0.0, 1e-8);
+  o.friction = with_slope(-low / o.preload, belt_speed * radius);
+  EXPECT_NEAR(growth_of_model(o, belt_speed), 0.0, 1e-8);
 }
 
 TEST(TwoMasses, SquealOnAnyFallingSlopeWhenOneOfThemHasNoDamper)
@@ -79,7 +79,7 @@ TEST(TwoMasses, SquealOnAnyFallingSlopeWhenOneOfThemHasNoDamper)
     TwoMasses o = equal_frequencies(0.1);
     o.d_1 = d_1;
     o.d_2 = 0.0;
-    EXPECT_GT(growth_at(o, speed), 1e-5) << d_1;
+    EXPECT_GT(growth_of_model(o, belt_speed), 1e-5) << d_1;
   }
 }
 
@@ -90,8 +90,8 @@ TEST(TwoMasses, AreDampedByFrictionThatRisesWithTheSpeed)
   TwoMasses o = equal_frequencies(-6.0);
   o.d_1 = o.d_2 = 0.0;
   o.k_2 = 5e6;
-  EXPECT_NEAR(SlidingBrake(o).state_matrix(speed).trace(), -6.0 / 0.5 - 6.0 / 2.0, 1e-9);
-  EXPECT_LT(growth_at(o, speed), -1.0);
+  EXPECT_NEAR(SlidingBrake(o).state_matrix(belt_speed).trace(), -6.0 / 0.5 - 6.0 / 2.0, 1e-9);
+  EXPECT_LT(growth_of_model(o, belt_speed), -1.0);
 }
 
 /// Undamped; tilting and normal motion have frequencies near 530 Hz.
@@ -135,28 +135,28 @@ TEST(TiltingBlock, FluttersWhereTheFrequenciesOfTiltingAndNormalMotionMeet)
   EXPECT_GT(critical, 0.1);  // |b| / h: below it both couplings have one sign
   EXPECT_LT(critical, 0.2);
   // Eigenvalues go with the root of the distance, omega sqrt(1e-6) is 3.
-  EXPECT_LT(growth_at(block(critical * (1.0 - 1e-6)), speed), 1e-5);
-  EXPECT_GT(growth_at(block(critical * (1.0 + 1e-6)), speed), 0.01);
+  EXPECT_LT(growth_of_model(block(critical * (1.0 - 1e-6)), belt_speed), 1e-5);
+  EXPECT_GT(growth_of_model(block(critical * (1.0 + 1e-6)), belt_speed), 0.01);
 }
 
 TEST(TiltingBlock, IsStableWithTheFootInTheMiddle)
 {
   TiltingBlock o = block(0.6);
   o.foot_offset = 0.0;
-  EXPECT_LT(growth_at(o, speed), 1e-6);
+  EXPECT_LT(growth_of_model(o, belt_speed), 1e-6);
 }
 
 TEST(TiltingBlock, SquealsWithFrictionThatRisesWithTheSpeed)
 {
   TiltingBlock o = block(0.0);
   o.friction = {.kinetic = 0.5, .rise = -0.2, .decay_speed = 0.5};
-  const double slope = 0.2 / 0.5 * std::exp(-speed * radius / 0.5);
+  const double slope = 0.2 / 0.5 * std::exp(-belt_speed * radius / 0.5);
   const SlidingBrake model(o);
   // Friction damps x - h phi: over m, and h^2 over J.
   const double gain = o.preload * slope;
-  EXPECT_NEAR(model.state_matrix(speed).trace(),
+  EXPECT_NEAR(model.state_matrix(belt_speed).trace(),
               -gain * (1.0 / o.mass + o.height * o.height / o.inertia), 1e-8);
-  EXPECT_GT(growth_at(o, speed), 100.0);
+  EXPECT_GT(growth_of_model(o, belt_speed), 100.0);
 }
 
 TEST(TiltingBlock, HasTheMatricesOfItsEquations)
@@ -177,7 +177,7 @@ TEST(TiltingBlock, HasTheMatricesOfItsEquations)
   A.topRightCorner(3, 3) = w * Eigen::Matrix3d::Identity();
   A.bottomLeftCorner(3, 3) = M.cwiseInverse().asDiagonal() * K * (-1.0 / w);
   A.bottomRightCorner(3, 3) = -d.cwiseQuotient(M).asDiagonal().toDenseMatrix();
-  EXPECT_LT((SlidingBrake(o).state_matrix(speed) - A).norm(), 1e-13 * A.norm());
+  EXPECT_LT((SlidingBrake(o).state_matrix(belt_speed) - A).norm(), 1e-13 * A.norm());
 }
 
 TEST(TiltingBlock, LiftsOneEndOfItsFoot)
@@ -185,7 +185,7 @@ TEST(TiltingBlock, LiftsOneEndOfItsFoot)
   const SlidingBrake model(block(0.4));
   Eigen::VectorXd x = Eigen::VectorXd::Zero(model.size());
   x[2] = std::sqrt(1.2e7) * 0.01;  // phi = 0.01 lifts the end at -22 mm by 220 um, 3 N_0 / k_c
-  const ContactResult<double> ends = model.contact(x, speed);
+  const ContactResult<double> ends = model.contact(x, belt_speed);
   EXPECT_EQ(ends.upper.N, 0.0);
   EXPECT_NEAR(ends.lower.N, 250.0 + 3.5e6 * 0.018 * 0.01, 1e-9);
 }
@@ -195,13 +195,13 @@ TEST(SlidingBrake, VariesByTheKeysOfItsModel)
   TwoMasses o = equal_frequencies(2.0);
   const SlidingBrake brake(o);
   o.d_2 = 7.0;
-  EXPECT_EQ(brake.with({"two_masses.disc_damping"}, 7.0)->state_matrix(speed),
-            SlidingBrake(o).state_matrix(speed));
+  EXPECT_EQ(brake.with({"two_masses.disc_damping"}, 7.0)->state_matrix(belt_speed),
+            SlidingBrake(o).state_matrix(belt_speed));
   TiltingBlock foot = block(0.4);
   const SlidingBrake standing(foot);
   foot.foot_offset = 0.003;
-  EXPECT_EQ(standing.with({"tilting_block.foot_offset"}, 0.003)->state_matrix(speed),
-            SlidingBrake(foot).state_matrix(speed));
+  EXPECT_EQ(standing.with({"tilting_block.foot_offset"}, 0.003)->state_matrix(belt_speed),
+            SlidingBrake(foot).state_matrix(belt_speed));
   EXPECT_EQ(standing.parameters().size(), 1u + 14u);  // friction, and the keys of its table
   EXPECT_EQ(brake.parameters().size(), 3u + 8u);      // kinetic, static, decay_speed
 }

@@ -78,7 +78,7 @@ TEST(PreloadProgram, IsLinearBetweenItsPoints)
 }
 
 /// A short run with a plate behind the lining.
-TransientCase short_run()
+TransientCase short_program()
 {
   return {.speed = 18.0,
           .duration = 0.1,
@@ -101,8 +101,8 @@ TEST(PreloadProgram, OfOneFactorIsAConstantPreload)
   SquealOptions more = reference_options();
   more.pads.front().preload *= 1.5;
   const Disc disc = disc_of({kirchhoff_3()});
-  const auto constant = transient(FlexibleDisc(disc, more), short_run()).tail;
-  TransientCase run = short_run();
+  const auto constant = transient(FlexibleDisc(disc, more), short_program()).tail;
+  TransientCase run = short_program();
   run.preload_program = {{0.0, 1.5}, {0.05, 1.5}};
   const auto program = transient(FlexibleDisc(disc, reference_options()), run).tail;
   ASSERT_EQ(constant.t.size(), program.t.size());
@@ -124,8 +124,8 @@ TEST(PreloadProgram, MovesTheEquilibriumOfPlatesToo)
   const auto largest = [](const std::vector<double>& x) {
     return *std::ranges::max_element(x, {}, [](double value) { return std::abs(value); });
   };
-  const auto constant = transient(FlexibleDisc(disc, more), short_run()).tail;
-  TransientCase run = short_run();
+  const auto constant = transient(FlexibleDisc(disc, more), short_program()).tail;
+  TransientCase run = short_program();
   run.preload_program = {{0.0, 1.5}};
   const auto program = transient(FlexibleDisc(disc, with_plate()), run).tail;
   EXPECT_NEAR(std::abs(largest(program.pad_velocity) / largest(constant.pad_velocity)), 1.0, 1e-2);
@@ -144,7 +144,7 @@ TEST(PreloadProgram, EndsWithTheGrowthOfAConstantRun)
 {
   // 0.4 of the preload is stable at this speed, all of it squeals: friction goes with the preload.
   const Disc disc = disc_of({kirchhoff_3()});
-  TransientCase run = short_run();
+  TransientCase run = short_program();
   run.duration = 2.0;
   const Transient constant = transient(FlexibleDisc(disc, reference_options()), run);
   run.preload_program = {{0.0, 0.4}, {0.5, 1.0}};
@@ -161,7 +161,7 @@ TEST(PreloadProgram, EndsWithTheGrowthOfAConstantRun)
 
 TEST(PreloadProgram, NeedsTheSplitting)
 {
-  TransientCase run = short_run();
+  TransientCase run = short_program();
   run.preload_program = {{0.0, 0.5}, {0.05, 1.0}};
   run.integrator = IntegratorKind::exponential;
   EXPECT_THROW(transient(FlexibleDisc(disc_of({kirchhoff_3()}), reference_options()), run), Error);

@@ -18,7 +18,7 @@ namespace {
 
 using namespace test;
 
-double growth_at(const StateMatrixOf& A, double value)
+double growth_of_matrix(const StateMatrixOf& A, double value)
 {
   return least_stable_eigenvalue(A(value)).real();
 }
@@ -211,14 +211,15 @@ TEST(StabilitySearch, AgreesWithADenseScanForRandomSystems)
       bool inside = false;
       for (const UnstableInterval& interval : found.unstable)
         inside = inside || (v >= interval.from.value && v <= interval.to.value);
-      EXPECT_EQ(growth_at(A, v) > 0.0, inside) << "system " << trial << " at " << v;
+      EXPECT_EQ(growth_of_matrix(A, v) > 0.0, inside) << "system " << trial << " at " << v;
     }
     for (const UnstableInterval& interval : found.unstable) {
       for (const StabilityPoint& limit : {interval.from, interval.to}) {
         if (limit.growth != 0.0) continue;
         ++n_limits;
-        EXPECT_NEAR(growth_at(A, limit.value), 0.0, 1e-6);
-        EXPECT_LT(growth_at(A, limit.value - 1e-6) * growth_at(A, limit.value + 1e-6), 0.0);
+        EXPECT_NEAR(growth_of_matrix(A, limit.value), 0.0, 1e-6);
+        EXPECT_LT(growth_of_matrix(A, limit.value - 1e-6) * growth_of_matrix(A, limit.value + 1e-6),
+                  0.0);
       }
     }
   }

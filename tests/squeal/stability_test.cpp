@@ -18,11 +18,12 @@ InertialDisc inertial_of(const std::vector<PlatePair>& pairs)
 }
 
 /// x = (diag(omega) a, p) of the state matrix back in M a'' + C a' + K a = 0 of the plate.
-struct SecondOrder {
+struct DiscSecondOrder {
   Eigen::MatrixXd C, K;
 };
 
-SecondOrder second_order(const Eigen::MatrixXd& A, const InertialDisc& disc, double mass)
+DiscSecondOrder second_order_of_disc(const Eigen::MatrixXd& A, const InertialDisc& disc,
+                                     double mass)
 {
   const Eigen::Index n = disc.n_modes();
   const Eigen::MatrixXd omega = disc.omega.asDiagonal();
@@ -53,7 +54,7 @@ TEST(StateMatrix, HasTheReferenceMatricesOfOnePair)
   // rounding of K = 2e8 N/m, relative 1e-12 of the largest entry.
   const InertialDisc disc = inertial_of({kirchhoff_3()});
   const Eigen::MatrixXd A = state_matrix(disc, reference_options(), 6.0 * pi);
-  const SecondOrder plate = second_order(A, disc, kirchhoff_3().mass);
+  const DiscSecondOrder plate = second_order_of_disc(A, disc, kirchhoff_3().mass);
   // Our pair may be turned by half a period: both signs change, the matrices do not.
   expect_matrix(
       plate.C,

@@ -24,12 +24,12 @@ namespace {
 using namespace test;
 using Complex = std::complex<double>;
 
-StabilityCase over_speeds(double from, double to, int count)
+StabilityCase speeds_of_turning(double from, double to, int count)
 {
   return {.over = {}, .from = from * pi, .to = to * pi, .count = count};
 }
 
-std::vector<StabilityBranch> unstable_ones(const StabilityTable& table)
+std::vector<StabilityBranch> unstable_turning_rows(const StabilityTable& table)
 {
   std::vector<StabilityBranch> rows;
   std::ranges::copy_if(table.branches, std::back_inserter(rows), &StabilityBranch::is_unstable);
@@ -39,7 +39,7 @@ std::vector<StabilityBranch> unstable_ones(const StabilityTable& table)
 /// Limits to a thousandth of the distance of two values that are looked at, the rest as they are.
 void expect_same(const StabilityTable& table, const StabilityTable& expected, double step)
 {
-  const auto rows = unstable_ones(table), references = unstable_ones(expected);
+  const auto rows = unstable_turning_rows(table), references = unstable_turning_rows(expected);
   ASSERT_EQ(rows.size(), references.size());
   for (std::size_t j = 0; j < rows.size(); ++j) {
     ASSERT_EQ(rows[j].unstable.size(), references[j].unstable.size()) << j;
@@ -58,9 +58,9 @@ TEST(TurningTable, IsThatOfTheEigenvaluesWhereTheDiscIsAxisymmetric)
 {
   const FlexibleDisc brake(disc_of({turned_by(kirchhoff_2(), 0.4), kirchhoff_3(), kirchhoff_4()}),
                            reference_options());
-  const StabilityCase speeds = over_speeds(1.0, 14.0, 40);
+  const StabilityCase speeds = speeds_of_turning(1.0, 14.0, 40);
   const StabilityTable expected = unstable_modes(brake, speeds);
-  ASSERT_GE(unstable_ones(expected).size(), 1u);
+  ASSERT_GE(unstable_turning_rows(expected).size(), 1u);
   const StabilityTable table = turning_table(brake, speeds);
   EXPECT_EQ(table.method, "hill");
   EXPECT_EQ(expected.method, "eigenvalues");
@@ -74,7 +74,7 @@ TEST(TurningTable, HasTheGrowthOfARotationOfADiscWithVanes)
 {
   const FlexibleDisc brake(disc_with_vanes(), reference_options());
   ASSERT_FALSE(brake.is_autonomous());
-  const StabilityTable table = unstable_modes(brake, over_speeds(2.0, 14.0, 4));
+  const StabilityTable table = unstable_modes(brake, speeds_of_turning(2.0, 14.0, 4));
   ASSERT_EQ(table.values.size(), 4);
   for (Eigen::Index i = 0; i < table.values.size(); ++i) {
     double growth = -1e9;
@@ -89,7 +89,8 @@ TEST(TurningTable, HasLimitsAtWhichTheGrowthIsThatOfNoOtherMethod)
 {
   // Just below each limit over the speed the disc grows otherwise than just above it, by Floquet.
   const FlexibleDisc brake(mistuned_disc(), reference_options());
-  const StabilityProfile profile = profile_of(turning_table(brake, over_speeds(2.0, 14.0, 20)));
+  const StabilityProfile profile =
+      profile_of(turning_table(brake, speeds_of_turning(2.0, 14.0, 20)));
   ASSERT_FALSE(profile.unstable.empty());
   EXPECT_EQ(profile.method, "hill");
   int n_limits = 0;
@@ -111,7 +112,7 @@ TEST(TurningTable, HasLimitsAtWhichTheGrowthIsThatOfNoOtherMethod)
 TEST(TurningTable, KeepsMotionsOfTheBand)
 {
   const FlexibleDisc brake(disc_with_vanes(), reference_options());
-  StabilityCase speeds = over_speeds(2.0, 14.0, 4);
+  StabilityCase speeds = speeds_of_turning(2.0, 14.0, 4);
   const std::size_t n_all = turning_table(brake, speeds).branches.size();
   EXPECT_EQ(n_all, 4u);
   speeds.band = FrequencyBand{1500.0, 2500.0};
@@ -143,7 +144,7 @@ TEST(TurningTables, AreComputedOnceForTheAnalysesOfARun)
   EXPECT_EQ(turning.n_exponents(), n_exponents);
   EXPECT_EQ(results.stability_table->branches.size(), 4u);
   // Another band has the same motions, other values have not.
-  options.stability = over_speeds(2.0, 14.0, 4);
+  options.stability = speeds_of_turning(2.0, 14.0, 4);
   options.stability->band = FrequencyBand{1500.0, 1600.0};
   perform("stability", study, results);
   EXPECT_EQ(turning.n_exponents(), n_exponents);

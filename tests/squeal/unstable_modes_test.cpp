@@ -42,7 +42,7 @@ std::vector<StabilityBranch> unstable_ones(const StabilityTable& table)
   return rows;
 }
 
-std::string error_of(const std::function<void()>& action)
+std::string error_of_action(const std::function<void()>& action)
 {
   try {
     action();
@@ -236,7 +236,7 @@ TEST(UnstableModes, OfABandAreThoseWithFrequenciesInIt)
     }));
   EXPECT_EQ(summary(table), "2 of 4 modes are unstable somewhere");
   search.band = FrequencyBand{1000.0, 16000.0};
-  EXPECT_EQ(error_of([&] { unstable_modes(plate(), search); }),
+  EXPECT_EQ(error_of_action([&] { unstable_modes(plate(), search); }),
             "[squeal] stability.band_Hz = [1000, 16000] goes beyond the modes of the body, 584.127 "
             "to 14289.9 Hz; end it there, or take a body with more modes");
 }
@@ -323,7 +323,7 @@ TEST(UnstableModes, SayWhatIsWrongWithTheirRange)
     options.study.analyses = {"stability"};
     options.study.stability = over_speeds(1.0, 2.0, 3);
     change(*options.study.stability);
-    return error_of([&] { run(plate(options), options.study); });
+    return error_of_action([&] { run(plate(options), options.study); });
   };
   EXPECT_EQ(error_with([](auto& s) { s.count = 1; }),
             "[squeal] stability.count = 1; it must be 2 or more for \"stability\"");

@@ -234,7 +234,7 @@ SectorAnswer reduce_sector(const SectorDraw& drawn, MPI_Comm comm)
 }
 
 /// What must hold of it.
-Failures failures_of(const SectorAnswer& found)
+Failures failures_of_sector(const SectorAnswer& found)
 {
   if (!found.refusal.empty())
     return check_refusal({.name = "", .refusal = found.refusal}, found.answer);
@@ -274,7 +274,7 @@ SectorTrial try_sector(std::uint64_t seed, MPI_Comm comm)
   const SectorAnswer found = reduce_sector(drawn, comm);
   SectorTrial trial{.words = words_of_sector(drawn), .failures = {}};
   if (petsc::rank(comm) > 0) return trial;
-  trial.failures = failures_of(found);
+  trial.failures = failures_of_sector(found);
   if (petsc::size(comm) > 1)
     compare_ranks(found.answer, reduce_sector(drawn, PETSC_COMM_SELF).answer, trial.failures);
   return trial;

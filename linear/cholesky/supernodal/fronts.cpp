@@ -131,7 +131,7 @@ struct Update {
   int ld;
 };
 
-void subtract(const Update& u, double scale, double* Y, int ldy)
+void subtract_update(const Update& u, double scale, double* Y, int ldy)
 {
   if (u.n == 0 || u.m == 0) return;
   const PetscBLASInt n = u.n, m = u.m, k = u.k, ld = u.ld, ld_Y = ldy;
@@ -161,8 +161,9 @@ int eliminate_columns(const FrontColumns& front)
     }
     for (int c = last; c < front.n_columns; c += block_columns) {
       const int width = std::min(block_columns, front.n_columns - c);
-      subtract({n - c, width, last - first, front.A + at(c, first), front.W + at(c, first), n}, 1.0,
-               front.A + at(c, c), n);
+      subtract_update(
+          {n - c, width, last - first, front.A + at(c, first), front.W + at(c, first), n}, 1.0,
+          front.A + at(c, c), n);
     }
   }
   return n_negative;
@@ -173,8 +174,9 @@ void subtract_from_rest(const FrontColumns& front, double scale, double* C)
   const int n_rest = front.n_rows - front.n_columns;
   for (int c = 0; c < n_rest; c += block_columns) {
     const int width = std::min(block_columns, n_rest - c), row = front.n_columns + c;
-    subtract({n_rest - c, width, front.n_columns, front.A + row, front.W + row, front.n_rows},
-             scale, C + c + std::size_t(c) * n_rest, n_rest);
+    subtract_update(
+        {n_rest - c, width, front.n_columns, front.A + row, front.W + row, front.n_rows}, scale,
+        C + c + std::size_t(c) * n_rest, n_rest);
   }
 }
 

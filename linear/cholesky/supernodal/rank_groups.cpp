@@ -49,7 +49,7 @@ Subtrees subtrees(const AssemblyTree& tree)
   return all;
 }
 
-double sum(const std::vector<int>& roots, const std::vector<double>& work_below)
+double work_of_roots(const std::vector<int>& roots, const std::vector<double>& work_below)
 {
   return std::accumulate(roots.begin(), roots.end(), 0.0,
                          [&](double sum, int s) { return sum + work_below[s]; });
@@ -60,7 +60,7 @@ double sum(const std::vector<int>& roots, const std::vector<double>& work_below)
 std::vector<std::vector<int>> solved_apart(const Subtrees& all)
 {
   constexpr double good_part = 1.0 / 16.0;
-  const double large = good_part * sum(all.roots, all.work_below);
+  const double large = good_part * work_of_roots(all.roots, all.work_below);
   std::vector<std::vector<int>> groups(1);
   for (const int root : all.roots)
     if (all.work_below[root] < large)
@@ -109,7 +109,7 @@ void share(std::vector<int> roots, const Subtrees& all, const RankGroup& group,
     std::ranges::for_each(roots, give);
     return;
   }
-  double common = 0.0, left = sum(roots, all.work_below);
+  double common = 0.0, left = work_of_roots(roots, all.work_below);
   double shortest = std::numeric_limits<double>::infinity();
   std::vector<int> above, best_above;
   Halved best;

@@ -155,7 +155,7 @@ int SharedFronts::eliminate(int s, MPI_Comm comm)
 
 namespace {
 
-constexpr int block_columns = 64;  // of a lower triangle that are updated as a rectangle
+constexpr int shared_block_columns = 64;  // of a lower triangle that are updated as a rectangle
 
 /// Columns first .. last - 1 of a front, and where the rows of this rank stand.
 struct ColumnGroup {
@@ -277,8 +277,8 @@ void update(const DealtFront& front, const ColumnGroup& columns, const Workspace
   const PetscBLASInt n_all = front.rows.n_rows() - columns.last;
   const auto ld = static_cast<PetscBLASInt>(Y.leading_dimension);
   const int before = front.rows.count(front.place, 0, Y.first);
-  for (int c = Y.first; c < Y.last; c += block_columns) {
-    const PetscBLASInt width = std::min(block_columns, Y.last - c);
+  for (int c = Y.first; c < Y.last; c += shared_block_columns) {
+    const PetscBLASInt width = std::min(shared_block_columns, Y.last - c);
     const int above = front.rows.count(front.place, 0, c);
     const PetscBLASInt n = n_own - above;
     if (n == 0) return;

@@ -187,7 +187,7 @@ struct OwnTile {
   const double* inverse_pivots() const { return values + std::size_t(rows.n_columns) * tile_rows; }
 };
 
-std::size_t size_of(const RowTile& tile, bool is_pivot)
+std::size_t size_of_tile(const RowTile& tile, bool is_pivot)
 {
   return std::size_t(tile.n_columns + (is_pivot ? 1 : 0)) * tile_rows;
 }
@@ -203,12 +203,12 @@ OwnTiles own_tiles(const SharedColumns& L)
   L.rows.for_tiles(L.place, [&](const RowTile& tile) {
     const bool is_pivot = L.rows.is_pivot(tile);
     (is_pivot ? tiles.pivots : tiles.below).push_back({.rows = tile, .values = values});
-    values += size_of(tile, is_pivot);
+    values += size_of_tile(tile, is_pivot);
   });
   return tiles;
 }
 
-std::span<const int> rows_of(const SharedColumns& L, const RowTile& tile)
+std::span<const int> slots_of_tile(const SharedColumns& L, const RowTile& tile)
 {
   return L.below.subspan(std::size_t(tile.first - L.rows.n_columns()), std::size_t(tile.n_rows));
 }
@@ -229,7 +229,8 @@ DealtRows dealt_rows(const AssemblyTree& tree, int s, const RankGroup& group)
 std::size_t shared_size(const DealtRows& rows, int place)
 {
   std::size_t size = 0;
-  rows.for_tiles(place, [&](const RowTile& tile) { size += size_of(tile, rows.is_pivot(tile)); });
+  rows.for_tiles(place,
+                 [&](const RowTile& tile) { size += size_of_tile(tile, rows.is_pivot(tile)); });
   return size;
 }
 
@@ -238,7 +239,7 @@ void store_shared(const DealtRows& rows, int place, const double* own, const dou
 {
   const std::size_t ld = rows.count(place, 0, rows.n_rows());
   rows.for_tiles(place, [&](const RowTile& tile) {
-    std::fill_n(values, size_of(tile, rows.is_pivot(tile)), 0.0);
+    std::fill_n(values, size_of_tile(tile, rows.is_pivot(tile)), 0.0);
     for (int c = 0; c < tile.n_columns; ++c, values += tile_rows)
       std::copy_n(own + std::size_t(c) * ld, tile.n_rows, values);
     own += tile.n_rows;
@@ -261,7 +262,7 @@ void solve_forward(const SharedColumns& L, Panels X)
     for (int p = 0; p < X.n_panels; ++p) {
       product(tile, p);
       const double* from = rows.values.data();
-      for (const int slot : rows_of(L, tile.rows)) {
+      for (const int slot : slots_of_tile(L, tile.rows)) {
         double* x = X.values + p * X.stride + std::size_t(slot) * panel_width;
         for (int k = 0; k < panel_width; ++k) x[k] += from[k];
         from += panel_width;
@@ -314,7 +315,7 @@ void solve_backward(const SharedColumns& L, Panels X)
     for (int p = 0; p < X.n_panels; ++p) {
       rows.values.fill(0.0);
       double* to = rows.values.data();
-      for (const int slot : rows_of(L, tile.rows)) {
+      for (const int slot : slots_of_tile(L, tile.rows)) {
         std::copy_n(X.values + p * X.stride + std::size_t(slot) * panel_width, panel_width, to);
         to += panel_width;
       }

@@ -12,7 +12,7 @@ namespace {
 
 using test::ScratchFolder, test::bytes_of, test::error_of;
 
-std::size_t n_files(const ScratchFolder& folder)
+std::size_t n_files_in(const ScratchFolder& folder)
 {
   return std::distance(std::filesystem::directory_iterator(folder.path()), {});
 }
@@ -80,11 +80,11 @@ TEST(Hdf5Writer, LeavesTheOldFileWhenInterrupted)
   {
     Writer writer(path);
     writer.write("x", 2.0, "m");
-    EXPECT_EQ(n_files(folder), 3u);
+    EXPECT_EQ(n_files_in(folder), 3u);
     EXPECT_EQ(bytes_of(path), before);
   }
   EXPECT_EQ(bytes_of(path), before);
-  EXPECT_EQ(n_files(folder), 1u);
+  EXPECT_EQ(n_files_in(folder), 1u);
 }
 
 TEST(Hdf5Writer, RefusesAFolderThatDoesNotExistAndATakenName)

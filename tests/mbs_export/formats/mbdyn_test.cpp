@@ -197,7 +197,7 @@ TEST(MbdynFem, HasTheMomentaOfTheNodesThatItHolds)
   EXPECT_GT(largest, 0.1);  // a held body couples, or the test would tell nothing
 }
 
-Matrix3d tilde(const Vector3d& a)
+Matrix3d tilde_matrix(const Vector3d& a)
 {
   Matrix3d S;
   S << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
@@ -217,11 +217,11 @@ TEST(MbdynFem, HasTheInvariantsThatItsReaderMakesOfPointMasses)
     const double m = node == test::wheel_rim_nodes ? test::hub_mass : test::rim_node_mass;
     for (Index j = 0; j < n; ++j) {
       const Vector3d U_j = fem.modes[std::size_t(j)].col(node).head(3);
-      I8.middleCols<3>(3 * j) -= m * tilde(fem.positions.col(node)) * tilde(U_j);
+      I8.middleCols<3>(3 * j) -= m * tilde_matrix(fem.positions.col(node)) * tilde_matrix(U_j);
       for (Index k = 0; k < n; ++k) {
         const Vector3d U_k = fem.modes[std::size_t(k)].col(node).head(3);
         I5.col(j * n + k) += m * U_j.cross(U_k);
-        I9.middleCols<3>(3 * (j * n + k)) += m * tilde(U_j) * tilde(U_k);
+        I9.middleCols<3>(3 * (j * n + k)) += m * tilde_matrix(U_j) * tilde_matrix(U_k);
       }
     }
   }
@@ -245,8 +245,8 @@ TEST(MbdynFem, ChangesTheInertiaAsTheDeformedPointsDo)
     const Vector3d x = fem.positions.col(node);
     Vector3d moved = x;
     for (Index j = 0; j < n; ++j) moved += q[j] * fem.modes[std::size_t(j)].col(node).head(3);
-    exact -= m * tilde(moved) * tilde(moved);
-    I7 -= m * tilde(x) * tilde(x);
+    exact -= m * tilde_matrix(moved) * tilde_matrix(moved);
+    I7 -= m * tilde_matrix(x) * tilde_matrix(x);
   }
   Matrix3d found = I7;
   for (Index j = 0; j < n; ++j) {

@@ -42,7 +42,7 @@ std::string columns(const std::string& line, std::size_t first, std::size_t widt
                                     : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
 }
 
-double real(std::string text)
+double real_of_column(std::string text)
 {
   for (char& c : text)
     if (c == 'D') c = 'E';
@@ -70,7 +70,7 @@ std::map<std::pair<Dof, Dof>, double> read_dmig(const std::string& text, const s
     } else if (columns(line, 0, 8) != "*") {
       inside = false;
     } else if (inside) {
-      entries[{dof(8), column}] = real(columns(line, 40, 16));
+      entries[{dof(8), column}] = real_of_column(columns(line, 40, 16));
     }
   }
   return entries;
@@ -102,7 +102,7 @@ std::vector<Op4> read_op4(const std::string& text)
       const int row = integer(head, 1), n = integer(head, 2);
       for (int i = 0; i < n; ++i) {
         if (i > 0 && i % 3 == 0) ++at;
-        const double x = real(columns(lines.at(at), std::size_t(23 * (i % 3)), 23));
+        const double x = real_of_column(columns(lines.at(at), std::size_t(23 * (i % 3)), 23));
         if (column <= n_cols) matrix.A(row - 1 + i, column - 1) = x;
       }
       ++at;

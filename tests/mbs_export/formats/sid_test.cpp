@@ -157,7 +157,7 @@ SidFile read_sid(const std::string& text, SidDialect dialect)
   return sid;
 }
 
-FloatingBody held_wheel()
+FloatingBody floating_wheel()
 {
   BodyOptions options;
   options.fixed = {"hub"};
@@ -200,7 +200,7 @@ const VectorXd q = (VectorXd(6) << 0.3, -0.2, 0.5, 0.1, -0.4, 0.7).finished();
 
 TEST(SidFem, HasTheInertiaOfTheDeformedBodyToFirstOrder)
 {
-  const FloatingBody floating = held_wheel();
+  const FloatingBody floating = floating_wheel();
   const SidFile sid = read_sid(sid_fem(floating, {}), SidDialect::simpack);
   ASSERT_EQ(sid.n_modes, 6);
   const Lumps w(floating.body.attachment_modes * q);
@@ -222,7 +222,7 @@ TEST(SidFem, HasTheInertiaOfTheDeformedBodyToFirstOrder)
 
 TEST(SidFem, HasTheForcesOfAMovingFrame)
 {
-  const FloatingBody floating = held_wheel();
+  const FloatingBody floating = floating_wheel();
   const SidFile sid = read_sid(sid_fem(floating, {}), SidDialect::simpack);
   const Lumps w(floating.body.attachment_modes * q);
   const Vector3d omega(0.7, -1.1, 0.4);
@@ -271,7 +271,7 @@ TEST(SidFem, HasTheForcesOfAMovingFrame)
 
 TEST(SidFem, HasTheStiffeningInTheFirstOrderOfTheCoefficientsOfItsLoads)
 {
-  FloatingBody floating = held_wheel();
+  FloatingBody floating = floating_wheel();
   const Index n = floating.body.n_modes();
   const SidFile without = read_sid(sid_fem(floating, {}), SidDialect::simpack);
   Stiffening stiffening;
@@ -296,7 +296,7 @@ TEST(SidFem, HasTheStiffeningInTheFirstOrderOfTheCoefficientsOfItsLoads)
 
 TEST(SidFem, HasTheTorqueOfAVibratingBodyInASpinningFrame)
 {
-  const FloatingBody floating = held_wheel();
+  const FloatingBody floating = floating_wheel();
   const SidFile sid = read_sid(sid_fem(floating, {}), SidDialect::simpack);
   const Lumps w(floating.body.attachment_modes * q);
   const Vector3d omega(0.7, -1.1, 0.4);
@@ -313,7 +313,7 @@ TEST(SidFem, HasTheTorqueOfAVibratingBodyInASpinningFrame)
 
 TEST(SidFem, ReturnsEveryDigitAndItsNodes)
 {
-  const FloatingBody floating = held_wheel();
+  const FloatingBody floating = floating_wheel();
   const SidFile sid = read_sid(sid_fem(floating, {}), SidDialect::simpack);
   EXPECT_EQ(sid.mass, floating.body.mass);
   ASSERT_EQ(sid.nodes.size(), 13u);
@@ -334,7 +334,7 @@ TEST(SidFem, ReturnsEveryDigitAndItsNodes)
 
 TEST(SidFem, SaysTheSameInBothDialects)
 {
-  const FloatingBody floating = held_wheel();
+  const FloatingBody floating = floating_wheel();
   const SidFile a = read_sid(sid_fem(floating, {}), SidDialect::simpack);
   const SidFile b = read_sid(sid_fem(floating, {.dialect = SidDialect::welib}), SidDialect::welib);
   const MatrixXd six = a.blocks.at("J").at(q), J = b.blocks.at("J").at(q);
@@ -361,7 +361,7 @@ MatrixXd by_mode(const MatrixXd& by_axis)
 
 TEST(SidFem, HasGyroscopicColumnsByModeOrByAxis)
 {
-  const FloatingBody floating = held_wheel();
+  const FloatingBody floating = floating_wheel();
   const SidFile a =
       read_sid(sid_fem(floating, {.gyroscopic = SidGyroscopic::by_mode}), SidDialect::simpack);
   const SidFile b =

@@ -25,7 +25,7 @@ using testing::in_plane;
 using testing::line;
 using testing::rigid_motions;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A section of which no two constants are alike.
 BeamSection uneven(BeamTheory theory)

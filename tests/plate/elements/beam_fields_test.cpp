@@ -25,7 +25,7 @@ using testing::held;
 using testing::line;
 using testing::ring_lines;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A line of a quarter turn that also climbs, so that its axis is no plane curve.
 NodeVectors helix(int order)

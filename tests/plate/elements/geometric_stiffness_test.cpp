@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using testing::steel_like;
 
-constexpr double thickness = 0.05;
+constexpr double plate_thickness = 0.05;
 
 /// A flat element in the x-y plane with straight edges, turned by R.
 ShellNodes flat(mesh::Shape shape, int order, const Matrix3d& R)
@@ -28,7 +28,7 @@ ShellNodes flat(mesh::Shape shape, int order, const Matrix3d& R)
   ShellNodes nodes{.x = NodeVectors::Zero(P.rows(), 3), .D = NodeVectors::Zero(P.rows(), 3)};
   for (Index k = 0; k < P.rows(); ++k)
     nodes.x.row(k) << P(k, 0) + 0.2 * P(k, 1), 0.8 * P(k, 1) - 0.1 * P(k, 0), 0.0;
-  nodes.D.col(2).setConstant(0.5 * thickness);
+  nodes.D.col(2).setConstant(0.5 * plate_thickness);
   return testing::rotated(nodes, R);
 }
 
@@ -58,7 +58,7 @@ TEST_P(GeometricStiffnessOf, AUniformlyStretchedElementIsThatOfItsMembraneForces
   const double E = steel_like.young, nu = steel_like.poisson;
   Matrix3d N = (1.0 - nu) * e;
   N.topLeftCorner<2, 2>() += nu * e.trace() * Eigen::Matrix2d::Identity();
-  N *= E * thickness / (1.0 - nu * nu);
+  N *= E * plate_thickness / (1.0 - nu * nu);
   const MatrixXd K = shell_geometric_stiffness(shape, order, nodes, steel_like,
                                                linear_field(nodes.x, R * e * R.transpose()));
   // The parallelogram of the corners has the sides (2, -0.2), (0.4, 1.6) or half of them.
@@ -83,8 +83,8 @@ TEST_P(GeometricStiffnessOf, AStretchedElementCountsTheTurnOfItsSections)
   VectorXd v = VectorXd::Zero(6 * nodes.x.rows());
   for (Index i = 0; i < nodes.x.rows(); ++i) v[6 * i + 4] = nodes.x(i, 0);
   const double area = shape == mesh::Shape::triangle ? 0.5 * 0.82 : 4.0 * 0.82;
-  const double N = steel_like.young * thickness * 1e-3 / (1.0 - 0.3 * 0.3);
-  const double expected = area * N * thickness * thickness / 12.0;
+  const double N = steel_like.young * plate_thickness * 1e-3 / (1.0 - 0.3 * 0.3);
+  const double expected = area * N * plate_thickness * plate_thickness / 12.0;
   EXPECT_NEAR(v.dot(K * v), expected, 1e-10 * expected);
 }
 

@@ -16,9 +16,9 @@ using Eigen::VectorXd;
 using mesh::Shape;
 using testing::steel_like;
 
-constexpr double thickness = 0.05;
+constexpr double shell_thickness = 0.05;
 constexpr double E = 2.1, nu = 0.3, G = E / (2 * (1 + nu));  // of steel_like
-const double D = E * thickness * thickness * thickness / (12 * (1 - nu * nu));
+const double D = E * shell_thickness * shell_thickness * shell_thickness / (12 * (1 - nu * nu));
 
 /// A flat element with straight, distorted edges.
 ShellNodes distorted(Shape shape, int order)
@@ -30,7 +30,7 @@ ShellNodes distorted(Shape shape, int order)
     const double skew = shape == Shape::triangle ? 0.0 : 0.15 * r * s;
     nodes.x.row(k) << r + 0.2 * s + skew, 0.8 * s - 0.1 * r + 0.5 * skew, 0.0;
   }
-  nodes.D.col(2).setConstant(thickness / 2);
+  nodes.D.col(2).setConstant(shell_thickness / 2);
   return nodes;
 }
 
@@ -73,9 +73,9 @@ TEST_P(ShellResultantsOf, AConstantMembraneStrainAreExact)
   const auto result = of(nodes(), [](double x, double y) {
     return Eigen::Matrix<double, 6, 1>(1e-3 * (x + 0.5 * y), 1e-3 * (y + 0.5 * x), 0, 0, 0, 0);
   });
-  const double N = E * thickness / (1 - nu) * 1e-3;
+  const double N = E * shell_thickness / (1 - nu) * 1e-3;
   Eigen::RowVectorXd expected(6);
-  expected << N, N, 0.0, G * thickness * 1e-3, 0.0, 0.0;
+  expected << N, N, 0.0, G * shell_thickness * 1e-3, 0.0, 0.0;
   expect_rows(result.N, expected, E);
   expect_rows(result.M, Eigen::RowVectorXd::Zero(6), E);
   expect_rows(result.Q, Eigen::RowVectorXd::Zero(3), E);
@@ -102,7 +102,7 @@ TEST_P(ShellResultantsOfQuadrilaterals, AConstantShearAreExact)
   });
   Eigen::RowVectorXd expected(3);
   expected << 1e-3, -2e-3, 0.0;
-  expect_rows(result.Q, 5.0 / 6.0 * G * thickness * expected, E);
+  expect_rows(result.Q, 5.0 / 6.0 * G * shell_thickness * expected, E);
 }
 
 TEST_P(ShellResultantsOf, AnElementTurnWithIt)
@@ -170,12 +170,12 @@ TEST(ShellResultants, OfACylinderThatGrowsWiderAreTheHoopForce)
     const double phi = 0.1 * P(k, 0);
     const Eigen::RowVector3d radial(std::sin(phi), 0.0, std::cos(phi));
     nodes.x.row(k) = R * radial + 0.3 * P(k, 1) * Eigen::RowVector3d::UnitY();
-    nodes.D.row(k) = thickness / 2 * radial;
+    nodes.D.row(k) = shell_thickness / 2 * radial;
     u_e.segment<3>(6 * k) = w * radial.transpose();
   }
   const ShellResultants result =
       shell_resultants(Shape::quadrilateral, order, nodes, steel_like, u_e);
-  const double N = E * thickness * w / R / (1 - nu * nu);
+  const double N = E * shell_thickness * w / R / (1 - nu * nu);
   for (Index q = 0; q < result.N.rows(); ++q) {
     const double trace = result.N.row(q).head<3>().sum();
     // Cubic arcs of 0.2 rad, and terms of (t / R)^2 = 6e-4 of a thick curved shell.

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Index, Eigen::Matrix3d, Eigen::MatrixXd, Eigen::VectorXd;
 
-constexpr int count = 6;
+constexpr int sector_count = 6;
 
 Matrix3d turn(double angle)
 {
@@ -30,7 +30,7 @@ SparseRows sparse(const MatrixXd& A)
 /// A sector of six nodes: two of a ring and two others at the cut edges, one in the middle, which
 /// may be of the ring too, and one on the axis. Its stiffness is any definite matrix.
 struct AnySector {
-  SectorDofs dofs{.count = count,
+  SectorDofs dofs{.count = sector_count,
                   .n_blocks = 6,
                   .components = {0, 1, 2, 3, 4, 5},
                   .edges = {{{0, 1}}, {{2, 3}}},
@@ -43,12 +43,12 @@ struct AnySector {
     std::srand(seed);
     const MatrixXd A = MatrixXd::Random(36, 36);
     K = A * A.transpose() + MatrixXd::Identity(36, 36);
-    const double step = 2.0 * std::numbers::pi / count;
+    const double step = 2.0 * std::numbers::pi / sector_count;
     dofs.rings.push_back({.blocks = {0, 1},
                           .angles = {0.2, 0.2 + step},
-                          .n_nodes = ring_nodes_of_sector * count,
+                          .n_nodes = ring_nodes_of_sector * sector_count,
                           .first_angle = 0.2,
-                          .up_to = ring_nodes_of_sector * count / 2});
+                          .up_to = ring_nodes_of_sector * sector_count / 2});
     if (ring_nodes_of_sector == 1) return;
     dofs.rings.back().blocks.push_back(4);
     dofs.rings.back().angles.push_back(0.2 + 0.5 * step);
@@ -58,20 +58,20 @@ struct AnySector {
   /// node on the axis.
   MatrixXd whole() const
   {
-    const Index n = 18 * count + 6;
+    const Index n = 18 * sector_count + 6;
     MatrixXd sum = MatrixXd::Zero(n, n);
-    for (int j = 0; j < count; ++j) {
+    for (int j = 0; j < sector_count; ++j) {
       MatrixXd L = MatrixXd::Zero(36, n);
       const auto place = [&](int block, int sector, int of_three) {
-        L.block<6, 6>(6 * block, 18 * (sector % count) + 6 * of_three) =
-            block_turn(2.0 * std::numbers::pi / count * (sector - j));
+        L.block<6, 6>(6 * block, 18 * (sector % sector_count) + 6 * of_three) =
+            block_turn(2.0 * std::numbers::pi / sector_count * (sector - j));
       };
       place(0, j, 0);
       place(1, j + 1, 0);
       place(2, j, 1);
       place(3, j + 1, 1);
       place(4, j, 2);
-      L.block<6, 6>(30, 18 * count) = block_turn(-2.0 * std::numbers::pi * j / count);
+      L.block<6, 6>(30, 18 * sector_count) = block_turn(-2.0 * std::numbers::pi * j / sector_count);
       sum += L.transpose() * K * L;
     }
     return sum;
@@ -85,13 +85,13 @@ struct AnySector {
   }
 };
 
-VectorXd eigenvalues(const MatrixXd& A)
+VectorXd eigenvalues_of_pencil(const MatrixXd& A)
 {
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
 /// Of the pencil (A, G), with G the form of the unit matrix of the whole body.
-VectorXd eigenvalues(const MatrixXd& A, const MatrixXd& G)
+VectorXd eigenvalues_of_pencil(const MatrixXd& A, const MatrixXd& G)
 {
   return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(A, G, Eigen::EigenvaluesOnly)
       .eigenvalues();
@@ -102,7 +102,7 @@ MatrixXd unit_of_sector()
 {
   VectorXd share = VectorXd::Ones(36);
   share.head<24>().setConstant(0.5);
-  share.tail<6>().setConstant(1.0 / count);
+  share.tail<6>().setConstant(1.0 / sector_count);
   return share.asDiagonal();
 }
 
@@ -110,12 +110,13 @@ TEST(HarmonicCoordinates, GiveAllEigenvaluesOfTheWholeBodyAndNoOthers)
 {
   for (const int ring_nodes_of_sector : {1, 2}) {
     const AnySector sector(3, ring_nodes_of_sector);
-    VectorXd expected = eigenvalues(sector.whole());
+    VectorXd expected = eigenvalues_of_pencil(sector.whole());
     std::vector<double> found;
-    for (int n = 0; n < n_harmonics(count); ++n) {
+    for (int n = 0; n < n_harmonics(sector_count); ++n) {
       const HarmonicCoordinates c = harmonic_coordinates(sector.dofs, n);
-      const VectorXd lambda = eigenvalues(MatrixXd(harmonic_form(sparse(sector.K), c)),
-                                          MatrixXd(harmonic_form(sparse(unit_of_sector()), c)));
+      const VectorXd lambda =
+          eigenvalues_of_pencil(MatrixXd(harmonic_form(sparse(sector.K), c)),
+                                MatrixXd(harmonic_form(sparse(unit_of_sector()), c)));
       found.insert(found.end(), lambda.begin(), lambda.end());
     }
     std::ranges::sort(found);
@@ -132,7 +133,7 @@ TEST(HarmonicCoordinates, HaveOrthonormalHarmonicsOfTheirRings)
   for (const int ring_nodes_of_sector : {1, 2}) {
     const AnySector sector(3, ring_nodes_of_sector);
     int n_found = 0;
-    for (int n = 0; n < n_harmonics(count); ++n) {
+    for (int n = 0; n < n_harmonics(sector_count); ++n) {
       const HarmonicCoordinates c = harmonic_coordinates(sector.dofs, n);
       std::vector<int> of_ring;
       for (const Master& master : c.masters)
@@ -142,7 +143,7 @@ TEST(HarmonicCoordinates, HaveOrthonormalHarmonicsOfTheirRings)
       EXPECT_LT((I - MatrixXd::Identity(size, size)).norm(), 1e-14) << n;
       n_found += static_cast<int>(size);
     }
-    EXPECT_EQ(n_found, 6 * ring_nodes_of_sector * count);
+    EXPECT_EQ(n_found, 6 * ring_nodes_of_sector * sector_count);
   }
 }
 

@@ -17,13 +17,13 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-constexpr int count = 6;
-constexpr double step = 2.0 * std::numbers::pi / count, first = 0.2;
+constexpr int mirror_count = 6;
+constexpr double step = 2.0 * std::numbers::pi / mirror_count, first = 0.2;
 
 /// A sector of eight nodes: two of a ring at the cut edges and one between, two at the cut edges,
 /// two inside that are each other's image, and one on the axis.
 struct MirroredSector {
-  SectorDofs dofs{.count = count,
+  SectorDofs dofs{.count = mirror_count,
                   .n_blocks = 8,
                   .components = {0, 1, 2, 3, 4, 5},
                   .edges = {{{0, 1}}, {{3, 4}}},
@@ -44,9 +44,9 @@ struct MirroredSector {
     place(6, 1.5, first + 0.7 * step, 0.1);
     dofs.rings.push_back({.blocks = {0, 1, 2},
                           .angles = {first, first + step, first + 0.5 * step},
-                          .n_nodes = 2 * count,
+                          .n_nodes = 2 * mirror_count,
                           .first_angle = first,
-                          .up_to = count});
+                          .up_to = mirror_count});
     const MatrixXd A = MatrixXd::Random(48, 48), S = mirror();
     const MatrixXd any = A * A.transpose() + MatrixXd::Identity(48, 48);
     K = 0.5 * (any + S * any * S.transpose());
@@ -119,7 +119,7 @@ TEST(Mirror, IsNotSeenWhereItTakesARingToOtherNodes)
       angles.push_back(std::atan2(sector.positions(block, 1), sector.positions(block, 0)));
     dofs.rings.push_back({.blocks = std::move(blocks),
                           .angles = angles,
-                          .n_nodes = count,
+                          .n_nodes = mirror_count,
                           .first_angle = angles.front(),
                           .up_to = 1});
     return find_mirror(dofs, sector.positions, {&K}).has_value();
