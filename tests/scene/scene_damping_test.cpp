@@ -154,14 +154,14 @@ TEST(FrictionOfAPad, IsItsOwn)
 TEST(FaceOfAPad, IsRoundOrAPointByName)
 {
   const auto with = [](const std::string& face) {
-    return replaced(disc, "preload = 2000.0", "preload = 2000.0, " + face);
+    return replaced(damped_disc, "preload = 2000.0", "preload = 2000.0, " + face);
   };
-  EXPECT_FALSE(scene_of(disc).squeal->pads[0].radius);
-  EXPECT_EQ(scene_of(with("radius = 0.02")).squeal->pads[0].radius, 0.02);
-  const squeal::PadPair point = scene_of(with("area = 1e-3, face = \"point\"")).squeal->pads[0];
+  EXPECT_FALSE(scene_with(damped_disc).squeal->pads[0].radius);
+  EXPECT_EQ(scene_with(with("radius = 0.02")).squeal->pads[0].radius, 0.02);
+  const squeal::PadPair point = scene_with(with("area = 1e-3, face = \"point\"")).squeal->pads[0];
   EXPECT_EQ(point.radius, 0.0);
   EXPECT_EQ(point.area, 1e-3);
-  EXPECT_FALSE(scene_of(with("area = 1e-3, face = \"round\"")).squeal->pads[0].radius);
+  EXPECT_FALSE(scene_with(with("area = 1e-3, face = \"round\"")).squeal->pads[0].radius);
   const auto expect = [&](const std::string& face, const std::string& part) {
     EXPECT_NE(error_of(with(face)).find(part), std::string::npos) << error_of(with(face));
   };
