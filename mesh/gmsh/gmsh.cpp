@@ -385,6 +385,11 @@ Mesh current_model(const MeshOptions& options)
   gmsh::model::getEntities(others, options.solid_groups.empty() ? 2 : 3);
   for (const auto& other : others) group_of_entity.emplace(other, -1);  // in no group
   for (const auto& [entity, group] : group_of_entity) read_elements(mesh, index, entity, group);
+  if (!options.solid_groups.empty() && n_elements(3) == 0) {
+    throw Error(fmt::format(
+        "the mesh has no solid elements: give \"{}\" as a physical volume, and save its elements",
+        options.solid_groups.front()));
+  }
   if (mesh.blocks.empty()) refuse_wrong_dimension();
   merge_doubled_elements(mesh, options);
   add_inner_nodes(mesh);

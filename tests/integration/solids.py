@@ -180,6 +180,16 @@ def refusals(programs, folder):
             yield f"refusal of {new!r}: code {done.returncode}, {done.stderr[-300:]!r}"
 
 
+def no_volume(programs, folder):
+    """A section of solids on the faces of a volume, and on a mesh of surfaces."""
+    (folder / "sphere.geo").write_text(SPHERE_GEO.replace('Physical Volume("ball") = {1}; ', ""))
+    scene = 'name = "sphere"\n[mesh]\nfile = "sphere.geo"\n' + MATERIAL.format(group="skin", count=4, **IRON)
+    (folder / "scene.toml").write_text(scene)
+    said = run(programs / "chladni", "modes", folder / "scene.toml", "--output", folder, code=1)
+    if "has no solid elements" not in said:
+        yield f"faces with a section of solids: {said!r}"
+
+
 def example(programs, folder):
     """The solid disc with its bore held has the third pair of diameters of the shell of examples/thesis_disc to 2 %."""
     scene = Path(__file__).parents[2] / "examples/solid_disc/scene.toml"
@@ -200,6 +210,7 @@ def failures(programs, mpirun, folder):
     yield from sphere(programs, folder, mpirun)
     yield from loads(programs, folder)
     yield from refusals(programs, folder)
+    yield from no_volume(programs, folder)
     yield from example(programs, folder)
 
 
