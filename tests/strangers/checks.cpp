@@ -107,8 +107,7 @@ double rounding_of_modes(const Answer& answer)
   return units * lambda.maxCoeff() / lambda.minCoeff();
 }
 
-void check_projection(const Reference& exact, const Reduction& how, const Answer& answer,
-                      Failures& failures)
+void check_projection(const Reference& exact, const Answer& answer, Failures& failures)
 {
   const double of_K = projection_error(answer.T, exact.K, answer.K_r);
   const double of_M = projection_error(answer.T, exact.M, answer.M_r);
@@ -306,7 +305,7 @@ Failures check(const Reference& exact, const Reduction& how, const Answer& answe
   Failures failures;
   check_number_of_modes(exact, how, answer, failures);
   if (is(how, CMSCRAIGBAMPTON)) check_modes(exact, answer, failures);
-  check_projection(exact, how, answer, failures);
+  check_projection(exact, answer, failures);
   check_free_modes(exact, how, answer, failures);
   if (is(how, CMSCRAIGBAMPTON)) check_count("modes", answer.quality.modes, exact.held, failures);
   check_spectrum(exact, answer, failures);
