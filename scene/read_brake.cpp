@@ -117,7 +117,7 @@ bool read_is_point(const Table& pad)
   if (!pad.has("face")) return false;
   if (pad.has("grid"))
     pad.refuse("face", "is that of `grid`, which gives its points; leave out one of them");
-  const bool is_point = pad.text("face") == "point";
+  const auto is_point = pad.choice<bool>("face", {{"round", false}, {"point", true}});
   if (is_point && pad.has("radius"))
     pad.refuse("face", "is a point, and `radius` is that of a round face; leave out one of them");
   if (!is_point && !pad.has("radius") && !pad.has("area"))

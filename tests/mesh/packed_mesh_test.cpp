@@ -94,7 +94,7 @@ TEST(PackedMesh, IsRefusedWhenItsPartsDoNotFit)
       [](Mesh& m) { m.node_numbers[0] = -1; },
       [](Mesh& m) { m.positions[3][1] = std::numeric_limits<double>::infinity(); },
       [](Mesh& m) { m.groups[0].nodes[0] = m.n_nodes(); },
-      [](Mesh& m) { m.groups[0].dimension = 3; },
+      [](Mesh& m) { m.groups[0].dimension = 4; },
   };
   for (std::size_t i = 0; i < changes.size(); ++i)
     EXPECT_THROW(unpacked(packed(with(changes[i]))), Error) << i;

@@ -780,7 +780,7 @@ TEST(SceneError, NamesAnUnknownKeyAndTheNearestOnes)
        "scene.toml:7: mesh.elment_size is not a key here; did you mean element_size?"},
       {"element_order", "elementorder",
        "scene.toml:6: mesh.elementorder is not a key here; did you mean element_order? allowed: "
-       "edge_row, element_order, element_size, file, generator, inner_radius, outer_radius, "
+       "edge_row, element_order, element_size, extrude, file, generator, inner_radius, outer_radius, "
        "pattern, rings, sectors"},
       {"[body]", "[boddy]",
        "scene.toml:27: boddy is not a key here; did you mean body? allowed: accuracy, body, "
@@ -1001,7 +1001,7 @@ TEST(SceneError, NamesWhatABeamCannotBe)
          "scene.toml:30: reduce.resultants[1] = \"rim\": no such group of elements in the scene; "
          "there are: \"beam\"");
   EXPECT_EQ(error_of(replaced(disc_scene, "type = \"shell\"", "type = \"beam\"")),
-            "scene.toml:15: section.type = \"beam\": this generator makes surfaces; use \"shell\"");
+            "scene.toml:15: section.type = \"beam\": this generator makes surfaces; use \"shell\", or `extrude` in [mesh]");
 }
 
 /// The beam with a mass, a spring to the ground and a damper between its ends.

@@ -81,6 +81,7 @@ std::vector<FlexibleDisc> brakes_of_a_body()
     PadPair other = options->pads.front();
     other.angle = 2.0;
     other.friction.reset();
+    other.grid.reset();  // whose points would have no radius
     options->pads.push_back(other);
   }
   SquealOptions planes = full_options();
