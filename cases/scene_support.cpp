@@ -15,8 +15,8 @@
 #include "mbs_export/held_modes.hpp"
 #include "mbs_export/response_error.hpp"
 #include "mbs_export/select_by_tolerance.hpp"
-#include "reduce/reduction.hpp"
 #include "reduce/reduced_system.hpp"
+#include "reduce/reduction.hpp"
 
 namespace chladni::cases {
 

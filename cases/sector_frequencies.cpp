@@ -16,11 +16,11 @@
 #include "common/all_ranks.hpp"
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
-#include "reduce/cyclic/harmonic_model.hpp"
-#include "reduce/cyclic/sector.hpp"
 #include "mesh/sectors.hpp"
 #include "plate/dofs/dof_map.hpp"
 #include "plate/dofs/drilling.hpp"
+#include "reduce/cyclic/harmonic_model.hpp"
+#include "reduce/cyclic/sector.hpp"
 
 namespace chladni::cases {
 

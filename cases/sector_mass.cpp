@@ -8,9 +8,9 @@
 
 #include "cases/fe_model.hpp"
 #include "common/eigen_every.hpp"
+#include "linear/kernels/dense_matrices.hpp"
 #include "reduce/cyclic/harmonic_coordinates.hpp"
 #include "reduce/cyclic/sector.hpp"
-#include "linear/kernels/dense_matrices.hpp"
 
 namespace chladni::cases {
 

@@ -9,9 +9,9 @@
 
 #include "cases/fe_model.hpp"
 #include "common/error.hpp"
-#include "reduce/cyclic/harmonic_coordinates.hpp"
 #include "mesh/sectors.hpp"
 #include "plate/dofs/drilling.hpp"
+#include "reduce/cyclic/harmonic_coordinates.hpp"
 
 namespace chladni::cases {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "reduce/cyclic/harmonic_model.hpp"
 #include "mbs_export/reduced_system.hpp"
 #include "mesh/mesh.hpp"
 #include "plate/assembly/assemble.hpp"
+#include "reduce/cyclic/harmonic_model.hpp"
 #include "scene/scene.hpp"
 
 /// A scene with one sector meshed.

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "common/packing.hpp"
 #include "common/confinement/sandbox.hpp"
+#include "common/packing.hpp"
 #include "mesh/decks/declarations.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/mesh_options.hpp"

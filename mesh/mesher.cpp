@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "common/error.hpp"
 #include "common/confinement/helper_process.hpp"
 #include "common/confinement/sandbox.hpp"
+#include "common/error.hpp"
 #include "mesh/decks/read_deck.hpp"
 #include "mesh/mesh_archive.hpp"
 #include "mesh/own_readers.hpp"

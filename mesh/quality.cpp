@@ -196,7 +196,8 @@ std::span<const int> nodes_of_element(const Mesh& mesh, const ElementOfMesh& of)
 
 bool have_the_same_nodes(const Mesh& mesh, const ElementOfMesh& a, const ElementOfMesh& b)
 {
-  return a.block == b.block && std::ranges::is_permutation(nodes_of_element(mesh, a), nodes_of_element(mesh, b));
+  return a.block == b.block &&
+         std::ranges::is_permutation(nodes_of_element(mesh, a), nodes_of_element(mesh, b));
 }
 
 /// An element at one of its edges, which the node at one end and the next on it name.
@@ -357,9 +358,10 @@ std::optional<Plane> plane_of(const Mesh& mesh, const std::vector<ElementOfMesh>
                                    node_derivatives(block.shape, block.order), 0);
   const Vector area = cross(a_1, a_2);
   if (!(norm(area) > 0.0)) return std::nullopt;
-  const Plane plane{.origin = mesh.positions[std::size_t(nodes_of_element(mesh, elements.front())[0])],
-                    .first = unit(a_1),
-                    .second = cross(unit(area), unit(a_1))};
+  const Plane plane{
+      .origin = mesh.positions[std::size_t(nodes_of_element(mesh, elements.front())[0])],
+      .first = unit(a_1),
+      .second = cross(unit(area), unit(a_1))};
   double off = 0.0, size = 0.0;
   for (const ElementOfMesh& element : elements) {
     for (const int node : nodes_of_element(mesh, element)) {

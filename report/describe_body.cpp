@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "common/told_apart.hpp"
 #include "common/files/hdf5.hpp"
+#include "common/told_apart.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "mbs_export/responses/response_files.hpp"
 #include "report/describe_responses.hpp"

@@ -9,9 +9,9 @@
 #include <cstring>
 #include <map>
 
+#include "common/confinement/helper_process.hpp"
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
-#include "common/confinement/helper_process.hpp"
 #include "sound/air_of_gmsh.hpp"
 
 namespace chladni::sound {

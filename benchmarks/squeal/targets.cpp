@@ -4,13 +4,13 @@
 
 #include <cmath>
 
-#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 #include "squeal/stability/stability_map.hpp"
 #include "squeal/transient/integrator_choice.hpp"
 #include "squeal/transient/transient.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 
 namespace chladni::squeal::bench {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/disc.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal::bench {
 

@@ -14,9 +14,6 @@
 
 #include "benchmarks/squeal/hard_cases.hpp"
 #include "benchmarks/squeal/targets.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
-#include "tests/references/squeal/cvode.hpp"
-#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/motion/disc_motion.hpp"
 #include "squeal/motion/dormand_prince.hpp"
@@ -24,6 +21,9 @@
 #include "squeal/transient/integrator_choice.hpp"
 #include "squeal/transient/transient.hpp"
 #include "squeal/transient/transient_steps.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/cvode.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 
 namespace {
 

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <utility>
 
-#include "squeal/fmu/brake_simulation.hpp"
-#include "squeal/fmu/driven_brake.hpp"
 #include "cases/squeal/squeal_case.hpp"
 #include "common/error.hpp"
+#include "squeal/fmu/brake_simulation.hpp"
+#include "squeal/fmu/driven_brake.hpp"
 #include "squeal/models/flexible_disc.hpp"
 
 namespace chladni::cases {

@@ -20,8 +20,8 @@
 #include <string>
 #include <thread>
 
-#include "common/error.hpp"
 #include "common/confinement/sandbox.hpp"
+#include "common/error.hpp"
 
 namespace chladni::confinement {
 

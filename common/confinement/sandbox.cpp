@@ -25,8 +25,8 @@
 #include <span>
 #include <vector>
 
-#include "common/error.hpp"
 #include "common/confinement/helper_process.hpp"
+#include "common/error.hpp"
 
 namespace chladni::confinement {
 

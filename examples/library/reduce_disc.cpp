@@ -10,9 +10,9 @@
 #include "mesh/generators.hpp"
 #include "mesh/partition.hpp"
 #include "plate/assembly/assemble.hpp"
+#include "reduce/reduced_system.hpp"
 #include "reduce/reduction.hpp"
 #include "reduce/support.hpp"
-#include "reduce/reduced_system.hpp"
 
 namespace {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "common/eigen_every.hpp"
-#include "reduce/cyclic/harmonic_coordinates.hpp"
 #include "reduce/basis.hpp"
 #include "reduce/craig_bampton.hpp"
+#include "reduce/cyclic/harmonic_coordinates.hpp"
 #include "reduce/support.hpp"
 #include "reduce/supported_solutions.hpp"
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "reduce/cyclic/harmonic_coordinates.hpp"
 #include "linear/solver_options.hpp"
+#include "reduce/cyclic/harmonic_coordinates.hpp"
 #include "reduce/reduction.hpp"
 
 namespace chladni::cyclic {

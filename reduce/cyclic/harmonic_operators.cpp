@@ -7,8 +7,8 @@
 
 #include "common/eigen_every.hpp"
 #include "common/petsc.hpp"
-#include "reduce/cyclic/sector.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "reduce/cyclic/sector.hpp"
 
 namespace chladni::cyclic {
 

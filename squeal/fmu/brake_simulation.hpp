@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "squeal/fmu/driven_brake.hpp"
 #include "mbs_export/fmu/simulation.hpp"
+#include "squeal/fmu/driven_brake.hpp"
 
 namespace chladni::brake_fmu {
 

@@ -1,6 +1,6 @@
+#include "mbs_export/fmu/component.hpp"
 #include "squeal/fmu/brake_simulation.hpp"
 #include "squeal/fmu/driven_brake.hpp"
-#include "mbs_export/fmu/component.hpp"
 
 namespace chladni::fmu {
 

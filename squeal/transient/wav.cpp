@@ -81,8 +81,8 @@ std::string levels(std::span<const float> x, double full_scale)
   std::string bytes;
   bytes.reserve(2 * x.size());
   for (const float value : x) {
-    const auto level =
-        static_cast<std::int16_t>(std::lround(32767.0 * double(value) / scale_of_samples(full_scale)));
+    const auto level = static_cast<std::int16_t>(
+        std::lround(32767.0 * double(value) / scale_of_samples(full_scale)));
     append_number(bytes, static_cast<std::uint16_t>(level), 2);
   }
   return bytes;

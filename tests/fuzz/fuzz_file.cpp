@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "common/error.hpp"
-#include "damage.hpp"
 #include "common/files/seal.hpp"
+#include "damage.hpp"
 #include "memory_file.hpp"
 
 /// Read by the address sanitizer before main. libhdf5 believes a damaged file that its metadata

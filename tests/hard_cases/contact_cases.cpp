@@ -5,8 +5,6 @@
 #include "common/eigen_every.hpp"
 #include "hard_case.hpp"
 #include "linear/dense/dense_solvers.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
-#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
@@ -16,6 +14,8 @@
 #include "squeal/stability/error_budget.hpp"
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/transient/transient.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "tests/squeal/source_disc.hpp"
 
 namespace chladni::hard_cases {

@@ -15,12 +15,12 @@
 #include "hard_case.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "mbs_export/make_body.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/results/squeal_results.hpp"
 #include "squeal/study/study.hpp"
 #include "tests/common/files/scratch_folder.hpp"
 #include "tests/mbs_export/bending_beam.hpp"
 #include "tests/mbs_export/wheel.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::hard_cases {
 namespace {

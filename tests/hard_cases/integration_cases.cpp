@@ -2,14 +2,14 @@
 #include <cmath>
 
 #include "hard_case.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
-#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/motion/dormand_prince.hpp"
 #include "squeal/motion/generalised_alpha.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 #include "squeal/transient/transient.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 
 namespace chladni::hard_cases {
 namespace {

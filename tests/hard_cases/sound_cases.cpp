@@ -3,10 +3,10 @@
 #include <numbers>
 
 #include "hard_case.hpp"
-#include "tests/references/sound/exact_fields.hpp"
-#include "tests/references/sound/thesis_disc.hpp"
 #include "sound/air_plan.hpp"
 #include "sound/field.hpp"
+#include "tests/references/sound/exact_fields.hpp"
+#include "tests/references/sound/thesis_disc.hpp"
 
 namespace chladni::hard_cases {
 namespace {

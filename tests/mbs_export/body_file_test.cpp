@@ -9,10 +9,10 @@
 #include <numbers>
 
 #include "bending_beam.hpp"
-#include "damaged_numbers.hpp"
-#include "expect_equal.hpp"
 #include "common/files/hdf5.hpp"
 #include "common/files/seal.hpp"
+#include "damaged_numbers.hpp"
+#include "expect_equal.hpp"
 #include "mbs_export/make_body.hpp"
 #include "mbs_export/modal_body.hpp"
 #include "tests/common/files/scratch_folder.hpp"

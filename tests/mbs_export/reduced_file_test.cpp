@@ -8,8 +8,8 @@
 #include <random>
 
 #include "bending_beam.hpp"
-#include "expect_equal.hpp"
 #include "common/files/seal.hpp"
+#include "expect_equal.hpp"
 #include "mbs_export/make_body.hpp"
 #include "tests/common/files/scratch_folder.hpp"
 #include "wheel.hpp"

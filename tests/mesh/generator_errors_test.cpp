@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "common/error.hpp"
 #include "common/confinement/helper_process.hpp"
+#include "common/error.hpp"
 #include "generated.hpp"
 #include "mesh/mesh.hpp"
 

@@ -136,7 +136,8 @@ TEST(LoadVector, NamesWhatIsThereForAnUnknownGroup)
   EXPECT_NE(message(NodalLoad{.group = "rigth"}).find("right"), std::string::npos);
   EXPECT_NE(message(EdgeLoad{.group = "centre", .line_force = {}}).find("no edge"),
             std::string::npos);
-  EXPECT_NE(message(PressureLoad{.group = "right", .pressure = 1.0}).find("neither shell elements nor faces"),
+  EXPECT_NE(message(PressureLoad{.group = "right", .pressure = 1.0})
+                .find("neither shell elements nor faces"),
             std::string::npos);
 }
 

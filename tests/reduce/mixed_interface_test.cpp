@@ -71,7 +71,8 @@ TEST(Rubin, KeepsTheModesThatItIsMadeOf)
   ASSERT_EQ(model.K.rows(), 2 + n_mixed_modes + 1);
   const std::vector<double> lambda = eigenvalues(model.K, model.M);
   EXPECT_NEAR(lambda[0], 0.0, 1e-12);
-  for (int k = 1; k <= n_mixed_modes; ++k) EXPECT_NEAR(lambda[k] / exact_of_chains(k), 1.0, 1e-9) << "mode " << k;
+  for (int k = 1; k <= n_mixed_modes; ++k)
+    EXPECT_NEAR(lambda[k] / exact_of_chains(k), 1.0, 1e-9) << "mode " << k;
 }
 
 TEST(Rubin, IsStaticallyCompleteAndDynamicallyToSecondOrder)
@@ -83,7 +84,8 @@ TEST(Rubin, IsStaticallyCompleteAndDynamicallyToSecondOrder)
   const auto receptance = [](double omega2) {
     double sum = -1.0 / (n_of_mixed_chain * omega2);
     for (int k = 1; k < n_of_mixed_chain; ++k) {
-      const double phi = std::sqrt(2.0 / n_of_mixed_chain) * std::cos(0.5 * k * std::numbers::pi / n_of_mixed_chain);
+      const double phi = std::sqrt(2.0 / n_of_mixed_chain) *
+                         std::cos(0.5 * k * std::numbers::pi / n_of_mixed_chain);
       sum += phi * phi / (exact_of_chains(k) - omega2);
     }
     return sum;
@@ -119,8 +121,9 @@ TEST(Rubin, HasCertifiedFrequenciesUnderASupport)
       error_estimates({reduced.K_ss, reduced.Q, reduced.K, reduced.M}, pairs).eta2;
   for (PetscInt j = 0; j < 4; ++j) {
     const double held =
-        4.0 * std::pow(std::sin((2 * j + 1) * std::numbers::pi / (2.0 * (2 * n_of_mixed_chain - 1))),
-                       2);  // one end held
+        4.0 *
+        std::pow(std::sin((2 * j + 1) * std::numbers::pi / (2.0 * (2 * n_of_mixed_chain - 1))),
+                 2);  // one end held
     const double error = pairs.lambda[j] / held - 1.0;
     EXPECT_NEAR(eta2[j], error, 0.2 * error + 1e-11) << "mode " << j + 1;
   }
@@ -129,7 +132,8 @@ TEST(Rubin, HasCertifiedFrequenciesUnderASupport)
 /// 4 sin^2((2 k - 1) pi / (2 (2 n - 1))), k = 1, 2, ..., of the chain with one end held.
 double exact_with_end_held(int k)
 {
-  return 4.0 * std::pow(std::sin((2 * k - 1) * std::numbers::pi / (2.0 * (2 * n_of_mixed_chain - 1))), 2);
+  return 4.0 *
+         std::pow(std::sin((2 * k - 1) * std::numbers::pi / (2.0 * (2 * n_of_mixed_chain - 1))), 2);
 }
 
 TEST(MixedInterfaceModes, AreThoseOfTheBodyWithTheHeldMasters)
@@ -182,7 +186,8 @@ struct TwoMixedChains {
 
 struct ReducedTwoChains {
   TwoMixedChains chains;
-  DofPartition dofs = partition(chains.K, master_set(chains.K, {0, 1, 46, 47, 2 * n_of_mixed_chain}));
+  DofPartition dofs =
+      partition(chains.K, master_set(chains.K, {0, 1, 46, 47, 2 * n_of_mixed_chain}));
   Blocks K = split(chains.K, dofs), M = split(chains.M, dofs);
   linear::Factorization K_ss = linear::factorize(K.ss);
   petsc::Matrix Psi = constraint_modes(K_ss, K);

@@ -132,22 +132,27 @@ TEST(Scene, LeavesTheMethodOpenWhereAToleranceIsGiven)
   const auto method = [](const std::string& text) {
     return parse_scene(text, "scene.toml").reduce.method;
   };
-  const std::string tolerance = replaced(disc_scene, "modes = 100", "tolerance = 1e-3\nup_to_Hz = 8e3");
+  const std::string tolerance =
+      replaced(disc_scene, "modes = 100", "tolerance = 1e-3\nup_to_Hz = 8e3");
   EXPECT_EQ(method(tolerance), Method::craig_bampton);  // as it says
   EXPECT_EQ(method(replaced(tolerance, "method = \"craig-bampton\"\n", "")), Method::automatic);
   EXPECT_EQ(method(replaced(tolerance, "craig-bampton", "auto")), Method::automatic);
   EXPECT_EQ(method(replaced(tolerance, "craig-bampton", "mixed-interface")),
             Method::mixed_interface);
-  EXPECT_EQ(method(replaced(disc_scene, "craig-bampton", "mixed-interface")), Method::mixed_interface);
+  EXPECT_EQ(method(replaced(disc_scene, "craig-bampton", "mixed-interface")),
+            Method::mixed_interface);
 }
 
 TEST(SceneError, NamesTheMethodThatSuitsTheChoiceOfModes)
 {
-  const std::string tolerance = replaced(disc_scene, "modes = 100", "tolerance = 1e-3\nup_to_Hz = 8e3");
-  EXPECT_NE(error_of(replaced(disc_scene, "craig-bampton", "auto")).find("give tolerance and up_to_Hz"),
-            std::string::npos);
-  EXPECT_NE(error_of(replaced(disc_scene, "method = \"craig-bampton\"\n", "")).find("reduce.method"),
-            std::string::npos);
+  const std::string tolerance =
+      replaced(disc_scene, "modes = 100", "tolerance = 1e-3\nup_to_Hz = 8e3");
+  EXPECT_NE(
+      error_of(replaced(disc_scene, "craig-bampton", "auto")).find("give tolerance and up_to_Hz"),
+      std::string::npos);
+  EXPECT_NE(
+      error_of(replaced(disc_scene, "method = \"craig-bampton\"\n", "")).find("reduce.method"),
+      std::string::npos);
   EXPECT_NE(error_of(replaced(tolerance, "craig-bampton", "rubin")).find("\"mixed-interface\""),
             std::string::npos);
 }
@@ -248,7 +253,8 @@ TEST(Scene, VariesAKeyOfOnePad)
       "map = { parameter = \"pads[2].stiffness\", from = 1e6, to = 9e6, count = 100 }\n";
   EXPECT_EQ(parse_scene(disc_scene + map, "scene.toml").squeal->study.map->parameter,
             (squeal::MapParameter{"stiffness", 2}));
-  const std::string none = error_of(disc_scene + replaced(map, "pads[2].stiffness", "pads[2].rubbing"));
+  const std::string none =
+      error_of(disc_scene + replaced(map, "pads[2].stiffness", "pads[2].rubbing"));
   EXPECT_NE(none.find("that of one pad alone is called like \"pads[1].stiffness\""),
             std::string::npos)
       << none;
@@ -328,11 +334,11 @@ TEST(Scene, SaysWhereInterfaceModesAndResultantsComeFrom)
   EXPECT_EQ(scene.resultants.elements, (std::vector<int>{3, 4}));
   EXPECT_FALSE(scene.mass_integrals);
   EXPECT_TRUE(parse_scene(disc_scene, "scene.toml").mass_integrals);
-  EXPECT_NE(
-      error_of(replaced(disc_scene, "kind = \"frm\", at = \"track\", dofs = [\"z\"], omega0 = \"auto\"",
-                        "kind = \"irm\", at = \"track\", dofs = [\"z\"], space = \"full\""))
-          .find("holds every static response already"),
-      std::string::npos);
+  EXPECT_NE(error_of(replaced(disc_scene,
+                              "kind = \"frm\", at = \"track\", dofs = [\"z\"], omega0 = \"auto\"",
+                              "kind = \"irm\", at = \"track\", dofs = [\"z\"], space = \"full\""))
+                .find("holds every static response already"),
+            std::string::npos);
 }
 
 TEST(SceneError, RefusesResponsesOfTheWholeModelInAFreeInterfaceReduction)
@@ -395,8 +401,8 @@ TEST(Scene, TakesHillsMethodUnlessFloquetIsAskedFor)
             squeal::RotationMethod::hill);
   EXPECT_EQ(method_of("\nrotation_stability = { method = \"floquet\" }"),
             squeal::RotationMethod::floquet);
-  const std::string error =
-      error_of(replaced(disc_scene, growth, growth + "\nrotation_stability = { method = \"hil\" }"));
+  const std::string error = error_of(
+      replaced(disc_scene, growth, growth + "\nrotation_stability = { method = \"hil\" }"));
   EXPECT_NE(error.find("rotation_stability.method"), std::string::npos) << error;
   EXPECT_NE(error.find("floquet"), std::string::npos) << error;
 }
@@ -405,8 +411,9 @@ TEST(Scene, TakesHillsMethodUnlessFloquetIsAskedFor)
 std::string disc_with_two_rings()
 {
   const std::string ring = "{ name = \"track\", radius = 0.13, nodes = 60 }";
-  return replaced(replaced(disc_scene, ring, ring + ", { name = \"inner\", radius = 0.12, nodes = 60 }"),
-                  "nodes = [\"track\", \"hub\"]", "nodes = [\"track\", \"inner\", \"hub\"]");
+  return replaced(
+      replaced(disc_scene, ring, ring + ", { name = \"inner\", radius = 0.12, nodes = 60 }"),
+      "nodes = [\"track\", \"hub\"]", "nodes = [\"track\", \"inner\", \"hub\"]");
 }
 
 TEST(Scene, NamesOneRingOrOneForEachContactPlane)
@@ -687,10 +694,10 @@ TEST(SceneError, LimitsTheNumberOfPads)
                 .find("are 1001 pad pairs; there may be 1000"),
             std::string::npos);
   const std::string wide = pad + ", grid = { sector_deg = 60.0, points = 4000 } },";
-  EXPECT_NE(
-      error_of(replaced(disc_scene, "pads = [" + pad + " }]", "pads = [" + wide + wide + wide + "]"))
-          .find("have 12000 contact points in all; there may be 10000"),
-      std::string::npos);
+  EXPECT_NE(error_of(replaced(disc_scene, "pads = [" + pad + " }]",
+                              "pads = [" + wide + wide + wide + "]"))
+                .find("have 12000 contact points in all; there may be 10000"),
+            std::string::npos);
 }
 
 TEST(SceneError, TellsADecimalCommaInAFormula)
@@ -780,7 +787,8 @@ TEST(SceneError, NamesAnUnknownKeyAndTheNearestOnes)
        "scene.toml:7: mesh.elment_size is not a key here; did you mean element_size?"},
       {"element_order", "elementorder",
        "scene.toml:6: mesh.elementorder is not a key here; did you mean element_order? allowed: "
-       "edge_row, element_order, element_size, extrude, file, generator, inner_radius, outer_radius, "
+       "edge_row, element_order, element_size, extrude, file, generator, inner_radius, "
+       "outer_radius, "
        "pattern, rings, sectors"},
       {"[body]", "[boddy]",
        "scene.toml:27: boddy is not a key here; did you mean body? allowed: accuracy, body, "
@@ -834,8 +842,8 @@ TEST(SceneError, NamesAWordThatRefersToNothing)
 
 TEST(Scene, ReadsATolerancePromisedUpToAFrequency)
 {
-  const Scene scene =
-      parse_scene(replaced(disc_scene, "modes = 100", "tolerance = 1e-3\nup_to_Hz = 8e3"), "scene.toml");
+  const Scene scene = parse_scene(
+      replaced(disc_scene, "modes = 100", "tolerance = 1e-3\nup_to_Hz = 8e3"), "scene.toml");
   ASSERT_TRUE(scene.reduce.tolerance.has_value());
   EXPECT_EQ(scene.reduce.tolerance->tolerance, 1e-3);
   EXPECT_EQ(scene.reduce.tolerance->up_to_Hz, 8e3);
@@ -1001,7 +1009,8 @@ TEST(SceneError, NamesWhatABeamCannotBe)
          "scene.toml:30: reduce.resultants[1] = \"rim\": no such group of elements in the scene; "
          "there are: \"beam\"");
   EXPECT_EQ(error_of(replaced(disc_scene, "type = \"shell\"", "type = \"beam\"")),
-            "scene.toml:15: section.type = \"beam\": this generator makes surfaces; use \"shell\", or `extrude` in [mesh]");
+            "scene.toml:15: section.type = \"beam\": this generator makes surfaces; use \"shell\", "
+            "or `extrude` in [mesh]");
 }
 
 /// The beam with a mass, a spring to the ground and a damper between its ends.
@@ -1095,7 +1104,8 @@ TEST(SceneError, EndsKeysDeeperThanAStackInASentence)
 TEST(SceneError, NamesTheLineOfASyntaxError)
 {
   EXPECT_TRUE(error_of(replaced(disc_scene, "[squeal]", "[squeal")).starts_with("scene.toml:32: "));
-  EXPECT_TRUE(error_of(replaced(disc_scene, "young = 9e10", "young = ")).starts_with("scene.toml:10: "));
+  EXPECT_TRUE(
+      error_of(replaced(disc_scene, "young = 9e10", "young = ")).starts_with("scene.toml:10: "));
 }
 
 TEST(SceneError, KeepsFilesInTheirFolder)

@@ -7,8 +7,8 @@
 #include <ostream>
 #include <vector>
 
-#include "tests/references/sound/thesis_disc.hpp"
 #include "sound/tone.hpp"
+#include "tests/references/sound/thesis_disc.hpp"
 
 namespace chladni::sound {
 namespace {

@@ -4,10 +4,10 @@
 #include <numbers>
 
 #include "common/error.hpp"
-#include "tests/references/sound/exact_fields.hpp"
-#include "tests/references/sound/thesis_disc.hpp"
 #include "sound/air_mesh.hpp"
 #include "sound/field.hpp"
+#include "tests/references/sound/exact_fields.hpp"
+#include "tests/references/sound/thesis_disc.hpp"
 
 namespace chladni::sound {
 namespace {

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "tests/references/sound/thesis_disc.hpp"
 #include "sound/radiation.hpp"
 #include "sound/study.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/models/flexible_disc.hpp"
+#include "tests/references/sound/thesis_disc.hpp"
 
 namespace chladni::sound {
 namespace {

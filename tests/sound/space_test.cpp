@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "tests/references/sound/exact_fields.hpp"
-#include "tests/references/sound/thesis_disc.hpp"
 #include "sound/levels.hpp"
 #include "sound/tone.hpp"
+#include "tests/references/sound/exact_fields.hpp"
+#include "tests/references/sound/thesis_disc.hpp"
 
 namespace chladni::sound {
 namespace {

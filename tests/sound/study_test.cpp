@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "common/error.hpp"
-#include "tests/references/sound/thesis_disc.hpp"
 #include "sound/radiation.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/models/flexible_disc.hpp"
+#include "tests/references/sound/thesis_disc.hpp"
 
 namespace chladni::sound {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "common/error.hpp"
-#include "tests/references/sound/thesis_disc.hpp"
 #include "sound/air_mesh.hpp"
+#include "tests/references/sound/thesis_disc.hpp"
 
 namespace chladni::sound {
 namespace {

@@ -5,7 +5,6 @@
 #include <complex>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/numerics.hpp"
@@ -16,6 +15,7 @@
 #include "squeal/transient/spectrum.hpp"
 #include "squeal/transient/transient.hpp"
 #include "tests/common/files/scratch_folder.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "common/error.hpp"
 #include "mbs_export/modal_body.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/assembly/assembly.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal::test {
 

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "source_disc.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/models/rigid_disc.hpp"
 #include "squeal/models/sliding_masses.hpp"
 #include "squeal/study/study.hpp"
 #include "squeal/study_options.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -7,9 +7,9 @@
 #include <complex>
 #include <vector>
 
-#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/stability/eigenvalues.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/motion/disc_motion.hpp"
 #include "squeal/stability/error_budget.hpp"
 #include "squeal/transient/transient.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "linear/dense/dense_solvers.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/stability/eigenvalues.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/disc.hpp"
 #include "squeal/brake/pad_system.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

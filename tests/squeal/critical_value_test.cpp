@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/models/sliding_masses.hpp"
 #include "squeal/stability/stability_search.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "tests/squeal/motions_side_by_side.hpp"
 
 namespace chladni::squeal {

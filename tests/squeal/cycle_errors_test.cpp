@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "planar_motions.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "source_disc.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/models/rigid_disc.hpp"
 #include "squeal/models/sliding_masses.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/disc_ring.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "tests/squeal/turning_discs.hpp"
 
 namespace chladni::squeal {

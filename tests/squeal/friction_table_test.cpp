@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/numerics.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

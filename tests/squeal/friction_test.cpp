@@ -5,13 +5,13 @@
 
 #include <cmath>
 
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/models/rigid_disc.hpp"
 #include "squeal/motion/disc_motion.hpp"
 #include "squeal/stability/eigenvalues.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -10,13 +10,13 @@
 #include <string>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/linear_contact.hpp"
 #include "squeal/models/rigid_disc.hpp"
 #include "squeal/models/sliding_masses.hpp"
 #include "squeal/results/squeal_results.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 #include "tests/common/files/scratch_folder.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

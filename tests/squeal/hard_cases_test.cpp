@@ -3,14 +3,14 @@
 #include <cmath>
 
 #include "linear/dense/dense_solvers.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
-#include "tests/references/squeal/cvode.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/motion/disc_motion.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 #include "squeal/transient/integrator_choice.hpp"
 #include "squeal/transient/transient.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/cvode.hpp"
 
 namespace chladni::squeal {
 namespace {

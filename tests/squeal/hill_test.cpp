@@ -6,12 +6,12 @@
 #include <cmath>
 #include <complex>
 
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/linear_contact.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 #include "squeal/stability/rotation_stability.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "tests/squeal/turning_discs.hpp"
 
 namespace chladni::squeal {

@@ -10,8 +10,8 @@
 
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/disc.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
-#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 #include "squeal/transient/integrator_choice.hpp"
 #include "squeal/transient/transient.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 
 namespace chladni::squeal {
 namespace {

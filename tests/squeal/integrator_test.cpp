@@ -5,8 +5,6 @@
 #include <functional>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
-#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/cycle/periodic_orbit.hpp"
@@ -18,6 +16,8 @@
 #include "squeal/transient/integrator_choice.hpp"
 #include "squeal/transient/transient.hpp"
 #include "squeal/transient/transient_steps.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 
 namespace chladni::squeal {
 namespace {

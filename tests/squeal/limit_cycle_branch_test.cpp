@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "reference_branches.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/transient/transient.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/linear_contact.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 /// Bodies whose rings lie in the faces of a plate, and brakes with pads on them.
 namespace chladni::squeal::test {

@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/transient/transient.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "tests/squeal/turning_discs.hpp"
 
 namespace chladni::squeal {

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/motion/splitting.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/transient/transient.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

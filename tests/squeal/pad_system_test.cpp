@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/motion/disc_motion.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 #include "squeal/transient/transient.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/models/rigid_disc.hpp"
 #include "squeal/models/sliding_masses.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 #include "squeal/stability/unstable_modes.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "tests/squeal/linked_rings.hpp"
 
 namespace chladni::squeal {

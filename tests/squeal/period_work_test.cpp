@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/results/squeal_results.hpp"
 #include "tests/common/files/scratch_folder.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "planar_motions.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/cycle/harmonic_balance.hpp"
 #include "squeal/cycle/limit_cycle_branch.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "linear/dense/dense_solvers.hpp"
-#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/linear_contact.hpp"
 #include "squeal/stability/eigenvalues.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 
 namespace chladni::squeal {
 namespace {

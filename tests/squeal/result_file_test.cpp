@@ -7,9 +7,9 @@
 
 #include "common/error.hpp"
 #include "common/files/hdf5.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/study/study.hpp"
 #include "tests/mbs_export/damaged_numbers.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/stability/eigenvalues.hpp"
 #include "squeal/transient/transient.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "tests/squeal/turning_discs.hpp"
 
 namespace chladni::squeal {

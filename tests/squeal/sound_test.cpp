@@ -8,11 +8,11 @@
 #include <sstream>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/transient/resampling.hpp"
 #include "squeal/transient/spectrum.hpp"
 #include "squeal/transient/wav.hpp"
 #include "tests/common/files/scratch_folder.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -5,8 +5,8 @@
 #include <chrono>
 #include <string>
 
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/stability/eigenvalues.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

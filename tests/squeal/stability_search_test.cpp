@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/stability/eigenvalues.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 #include "tests/squeal/motions_side_by_side.hpp"
 
 namespace chladni::squeal {

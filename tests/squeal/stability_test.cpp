@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "squeal/stability/stability_search.hpp"
 #include "tests/references/squeal/analytic_body.hpp"
 #include "tests/references/squeal/kirchhoff_modes.hpp"
-#include "squeal/stability/stability_search.hpp"
 
 namespace chladni::squeal {
 namespace {

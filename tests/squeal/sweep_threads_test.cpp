@@ -4,12 +4,12 @@
 #include <thread>
 #include <vector>
 
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/numerics.hpp"
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/stability/stability_map.hpp"
 #include "squeal/transient/transient.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/motion/splitting.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -10,7 +10,6 @@
 #include <string>
 
 #include "common/error.hpp"
-#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "squeal/models/brake.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/models/sliding_masses.hpp"
@@ -18,6 +17,7 @@
 #include "squeal/stability/eigenvalues.hpp"
 #include "squeal/study/study.hpp"
 #include "tests/common/files/scratch_folder.hpp"
+#include "tests/references/squeal/kirchhoff_modes.hpp"
 #include "tests/squeal/source_disc.hpp"
 
 namespace chladni::squeal {

@@ -1,5 +1,5 @@
-#include "reduce/cyclic/harmonic_model.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "reduce/cyclic/harmonic_model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "common/eigen_every.hpp"
-#include "reduce/cyclic/harmonic_model.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "reduce/cyclic/harmonic_model.hpp"
 
 namespace chladni::cyclic {
 namespace {

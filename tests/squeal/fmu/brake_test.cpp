@@ -4,11 +4,11 @@
 #include <cmath>
 #include <random>
 
+#include "common/error.hpp"
 #include "squeal/fmu/brake_simulation.hpp"
 #include "squeal/fmu/driven_brake.hpp"
-#include "common/error.hpp"
-#include "tests/references/squeal/analytic_body.hpp"
 #include "squeal/motion/disc_motion.hpp"
+#include "tests/references/squeal/analytic_body.hpp"
 
 namespace chladni::brake_fmu {
 namespace {
