@@ -9,6 +9,12 @@
 #include "linear/solver_options.hpp"
 #include "report/page/pages.hpp"
 
+namespace CLI {
+
+class App;
+
+}  // namespace CLI
+
 /// The subcommands of the program `chladni`. Each writes its files at its end and prints its
 /// summary on the first rank. Each throws chladni::Error when it fails, before it writes a file.
 /// @note Collective on all ranks.
@@ -150,5 +156,14 @@ const std::vector<std::string>& sid_gyroscopic_orders();
 
 /// Prints what a file of Chladni contains.
 void info_command(const ChladniArguments& arguments);
+
+/// The option --length-unit of a command that reads a file without a unit of its own.
+void declare_length_unit(CLI::App& app, std::string& unit);
+
+/// The subcommand `mac`.
+void declare_mac(CLI::App& app, MacArguments& arguments);
+
+/// The options of `response` besides those of all commands on scenes.
+void declare_response(CLI::App& response, ResponseChoice& choice);
 
 }  // namespace chladni::cli

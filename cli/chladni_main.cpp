@@ -12,7 +12,6 @@
 #include "cases/ranks.hpp"
 #include "cli/arguments.hpp"
 #include "cli/chladni_commands.hpp"
-#include "cli/model_commands.hpp"
 #include "cli/petsc_session.hpp"
 #include "cli/seal.hpp"
 #include "cli/self_description.hpp"

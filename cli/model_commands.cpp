@@ -1,5 +1,3 @@
-#include "cli/model_commands.hpp"
-
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -17,7 +15,6 @@
 #include "cases/scene_mesh.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
-#include "cli/writer_mark.hpp"
 #include "common/error.hpp"
 #include "common/files/output_file.hpp"
 #include "mbs_export/files/body_files.hpp"

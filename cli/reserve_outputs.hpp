@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "cli/arguments.hpp"
@@ -32,5 +33,9 @@ void tell_notes(const scene::Scene& scene);
 ///         the same name and --overwrite is not given.
 ReservedOutputs reserve_outputs(const SceneArguments& arguments,
                                 const std::vector<std::filesystem::path>& files);
+
+/// An XML or HTML comment for the end of a file, which names the scene's file relative to the
+/// output folder.
+std::string writer_mark(const SceneArguments& arguments);
 
 }  // namespace chladni::cli
