@@ -166,6 +166,7 @@ void restart(EPS eps, linear::BlockIteration& iteration)
 void iterate(EPS eps, linear::BlockIteration& iteration, const linear::BlockOperator& op)
 {
   const auto before = [eps](double a, double b) { return comes_before(eps, a, b); };
+  PetscInt n_kept = 0;  // by the last sequence that began from an exhausted basis
   while (eps->reason == EPS_CONVERGED_ITERATING) {
     if (iteration.is_full()) restart(eps, iteration);
     iteration.step(op);
@@ -182,7 +183,11 @@ void iterate(EPS eps, linear::BlockIteration& iteration, const linear::BlockOper
     petsc::check((*eps->stopping)(eps, eps->its, eps->max_it, eps->nconv, eps->nev, &eps->reason,
                                   eps->stoppingctx));
     if (eps->reason != EPS_CONVERGED_ITERATING) return;
-    if (copies == linear::Copies::may_lack) begin_anew(eps, iteration, n_first, op);
+    // What was left out of the blocks of a singular B keeps pairs from converging; a new sequence,
+    // orthogonal to those that did, finds the others.
+    const bool goes_on = iteration.is_exhausted() && n_first > n_kept;
+    if (goes_on) n_kept = n_first;
+    if (goes_on || copies == linear::Copies::may_lack) begin_anew(eps, iteration, n_first, op);
     if (iteration.is_exhausted()) eps->reason = EPS_DIVERGED_BREAKDOWN;  // fewer pairs exist
   }
 }

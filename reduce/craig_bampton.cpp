@@ -57,7 +57,7 @@ ReducedModel join(const GuyanStiffness& K_G, const MatrixXd& M_G, const MatrixXd
 
 ReducedModel project(const CraigBamptonBasis& Q_CB, const Blocks& K, const Blocks& M)
 {
-  const GuyanStiffness K_G = guyan_stiffness(Q_CB.Psi, K);
+  const GuyanStiffness K_G = guyan_stiffness(Q_CB.Psi, K, M);
   if (!Q_CB.modes) {
     const MatrixXd M_G = guyan_mass(Q_CB.Psi, M);
     return join(K_G, M_G, MatrixXd(0, M_G.cols()), {});

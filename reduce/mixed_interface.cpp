@@ -418,15 +418,6 @@ MatrixXd energies(const LoadedShapes& shapes)
   return 0.5 * (G + G.transpose());
 }
 
-/// The square roots of the diagonal; 1 where there is none.
-std::vector<double> lengths(const MatrixXd& G)
-{
-  std::vector<double> lengths;
-  for (PetscInt i = 0; i < G.rows(); ++i)
-    lengths.push_back(G(i, i) > 0.0 ? std::sqrt(G(i, i)) : 1.0);
-  return lengths;
-}
-
 petsc::Matrix combined(Mat X, const MatrixXd& S)
 {
   petsc::Matrix XS = linear::uninitialized_dense(X, S.cols());
@@ -437,23 +428,26 @@ petsc::Matrix combined(Mat X, const MatrixXd& S)
 
 /// A basis of the shapes with energies I. The first Gram matrix squares the condition of the
 /// shapes, the second one is near I. Directions that are dependent are left out.
-LoadedShapes orthonormal(LoadedShapes shapes)
+/// @param sizes  what round-off in each shape is relative to, the root of an energy
+LoadedShapes orthonormal(LoadedShapes shapes, std::vector<double> sizes)
 {
-  constexpr double dependent = 1e-6;  // of the columns' lengths: what a Gram matrix resolves
+  constexpr double dependent = 1e-6;  // of the sizes: what a Gram matrix resolves
   for (int pass = 0; pass < 2; ++pass) {
     const MatrixXd G = energies(shapes);
     const linear::Orthonormalisation o =
-        linear::orthonormalisation(G, lengths(G), dependent, petsc::communicator(shapes.T));
+        linear::orthonormalisation(G, sizes, dependent, petsc::communicator(shapes.T));
     shapes = {.T = combined(shapes.T, o.to_Q), .F = combined(shapes.F, o.to_Q)};
+    sizes.assign(std::size_t(o.to_Q.cols()), 1.0);
   }
   return shapes;
 }
 
 /// Ritz vectors of (K_ss, M_ss) among some shapes, from M x = mu K x, which keeps the lowest
 /// accurate.
-FixedInterfaceModes ritz_modes(LoadedShapes shapes, const WholeSystem& body)
+FixedInterfaceModes ritz_modes(LoadedShapes shapes, const std::vector<double>& sizes,
+                               const WholeSystem& body)
 {
-  const petsc::Matrix Q = orthonormal(std::move(shapes)).T;
+  const petsc::Matrix Q = orthonormal(std::move(shapes), sizes).T;
   const linear::SymmetricEigen ritz =
       linear::symmetric_eigen(gram(Q, body.M_blocks.ss), petsc::communicator(Q));
   const auto n = static_cast<PetscInt>(ritz.values.size());
@@ -470,12 +464,28 @@ FixedInterfaceModes ritz_modes(LoadedShapes shapes, const WholeSystem& body)
   return modes;
 }
 
+/// Of the shapes K_ss^-1 (M_ss X_s + M_sm X_m) of modes X: their own lengths where a mode is a
+/// rigid motion, else 1 / omega, the length of a mode that does not move the masters. A mode that
+/// the constraint modes hold, as one of a master that nothing couples, leaves a shape of round-off;
+/// a share of 1e-6 left out changes its eigenvalue by 1e-12.
+std::vector<double> sizes_of_shapes(const LoadedShapes& shapes, const std::vector<double>& omega)
+{
+  const MatrixXd G = energies(shapes);
+  std::vector<double> sizes;
+  for (PetscInt k = 0; k < G.cols(); ++k) {
+    const double own = G(k, k) > 0.0 ? std::sqrt(G(k, k)) : 1.0;
+    sizes.push_back(omega[std::size_t(k)] > 0.0 ? 1.0 / omega[std::size_t(k)] : own);
+  }
+  return sizes;
+}
+
 }  // namespace
 
 MixedInterfaceModes mixed_interface_modes(const WholeSystem& body, Mat Psi,
                                           const ReduceOptions& wanted, const std::vector<int>& held)
 {
-  const Flexibility flexibility(body, Psi, guyan_stiffness(Psi, body.K_blocks), held);
+  const Flexibility flexibility(body, Psi, guyan_stiffness(Psi, body.K_blocks, body.M_blocks),
+                                held);
   const auto [elastic, lambda_left_out] = elastic_pairs(body, flexibility, wanted);
   const petsc::Matrix X =
       beside(flexibility.R(), elastic.X, static_cast<PetscInt>(elastic.lambda.size()));
@@ -497,7 +507,8 @@ FixedInterfaceModes residual_modes(const WholeSystem& body, const MixedInterface
   linear::SparseProduct(body.M_blocks.ss).apply(modes.X_s, shapes.F);
   linear::add_sparse_product(body.M_blocks.sm, modes.X_m, shapes.F);
   petsc::check(MatMatSolve(body.K_ss.factor(), shapes.F, shapes.T));
-  return ritz_modes(std::move(shapes), body);
+  const std::vector<double> sizes = sizes_of_shapes(shapes, modes.omega);
+  return ritz_modes(std::move(shapes), sizes, body);
 }
 
 }  // namespace chladni::reduce

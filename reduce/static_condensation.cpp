@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/eigen_every.hpp"
@@ -221,9 +222,62 @@ MatrixXd without_motions(const MatrixXd& K_G, const MatrixXd& U, const std::vect
                   least));
 }
 
+/// u^T M u of the motions u = [R; Psi R]. Through u itself, not through M_G: the slaves that stand
+/// still have round-off in u, which is squared here, but not in the sums of large entries of M_G.
+MatrixXd mass_of(const MatrixXd& R, Mat Psi, const Blocks& M)
+{
+  const petsc::Matrix U = linear::uninitialized_dense(Psi, R.cols());
+  const petsc::Matrix MU = linear::uninitialized_dense(Psi, R.cols());
+  petsc::check(MatZeroEntries(U));
+  linear::add_product(1.0, Psi, R, U);
+  linear::SparseProduct(M.ss).apply(U, MU);
+  const MatrixXd sm = linear::product(linear::inner_product_sparse(U, M.sm), R);
+  const MatrixXd mm = linear::product(R.transpose(), linear::product(linear::replicate(M.mm), R));
+  return linear::inner_product(U, MU) + sm + sm.transpose() + mm;
+}
+
+/// The largest M_ii / K_ii, s^2: of the slow rows. PETSc takes 1 / 0 for 0.
+double slowest_row(const Blocks& K, const Blocks& M)
+{
+  double largest = 0.0;
+  for (const auto& [K_part, M_part] :
+       {std::pair{Mat(K.ss), Mat(M.ss)}, std::pair{Mat(K.mm), Mat(M.mm)}}) {
+    const petsc::Vector ratio = linear::diagonal(M_part);
+    PetscReal of_part = 0.0;
+    petsc::check(VecPointwiseDivide(ratio, ratio, linear::diagonal(K_part)));
+    petsc::check(VecMax(ratio, nullptr, &of_part));
+    largest = std::max(largest, of_part);
+  }
+  return largest;
+}
+
+/// Whether some motion R is without mass but for round-off. Each has the energy 1 in the diagonal
+/// of K_mm, so that its mass is an M / K of its own, which those of the rows are compared with: K_r
+/// may hold nothing at all.
+bool is_massless(const MatrixXd& mass, double slowest)
+{
+  constexpr double none = 1e-20, dependent = 1e-14;
+  const Eigen::VectorXd own = mass.diagonal();
+  if (!(own.minCoeff() > none * slowest)) return true;
+  const Eigen::VectorXd unit = own.cwiseSqrt().cwiseInverse();
+  const linear::SymmetricEigen shares =
+      linear::symmetric_eigen(MatrixXd(unit.asDiagonal() * mass * unit.asDiagonal()));
+  return !(shares.values.front() > dependent);
+}
+
+/// Where every rank says so or none.
+void refuse_massless(const MatrixXd& R, Mat Psi, const Blocks& K, const Blocks& M)
+{
+  const bool is_none = is_massless(mass_of(R, Psi, M), slowest_row(K, M));
+  if (linear::value_of_first_rank(is_none ? 1.0 : 0.0, petsc::communicator(Psi)) == 0.0) return;
+  throw Error(
+      "a motion has neither stiffness nor mass, so the pencil (K, M) is singular; give its DOFs "
+      "stiffness or mass, or leave them out");
+}
+
 }  // namespace
 
-GuyanStiffness guyan_stiffness(Mat Psi, const Blocks& K)
+GuyanStiffness guyan_stiffness(Mat Psi, const Blocks& K, const Blocks& M)
 {
   constexpr double indefinite = -1e-8;
   const MPI_Comm comm = petsc::communicator(Psi);
@@ -244,6 +298,7 @@ GuyanStiffness guyan_stiffness(Mat Psi, const Blocks& K)
   guyan.R = U;
   for (PetscInt j = 0; j < U.cols(); ++j)
     for (PetscInt i = 0; i < U.rows(); ++i) guyan.R(i, j) /= scales[i];
+  refuse_massless(guyan.R, Psi, K, M);
   return guyan;
 }
 

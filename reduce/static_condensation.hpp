@@ -17,8 +17,8 @@ struct GuyanStiffness {
 /// [u_m; Psi u_m], with u^T diag(K) u, of which round-off is a share near machine precision
 /// whichever DOFs are masters. K_G is returned with K_G R = 0.
 /// @note   Collective.
-/// @throws chladni::Error on all ranks when K is indefinite.
-GuyanStiffness guyan_stiffness(Mat Psi, const Blocks& K);
+/// @throws chladni::Error on all ranks when K is indefinite, or a motion of R has no mass either.
+GuyanStiffness guyan_stiffness(Mat Psi, const Blocks& K, const Blocks& M);
 
 /// Psi = -K_ss^-1 K_sm: displacements of the slaves for unit displacements of the masters. The
 /// right-hand sides are sparse on one rank, and dense in blocks of columns on several.

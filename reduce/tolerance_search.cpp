@@ -98,21 +98,33 @@ double ToleranceSearch::lambda_left_out(PetscInt n) const
   return search_.has_all() ? search_.unresolved_from() : omega.back() * omega.back();
 }
 
-/// Whether the FE model may have more frequencies in the range than the reduced one has there or
-/// within the tolerance above it.
+/// Whether a frequency of the FE model in the range may have no counterpart in the reduced model
+/// within the tolerance. Ritz value i has one if the FE model has no more than i eigenvalues below
+/// the Ritz value less the tolerance; a Ritz value near to an eigenvalue of another number does
+/// not. From the highest down to where none is missing at all.
 bool ToleranceSearch::may_lack_a_frequency(PetscInt n) const
 {
   const double sigma = std::pow(2.0 * std::numbers::pi * goal_.up_to_Hz, 2);
+  const double tolerable = std::pow(1.0 + goal_.tolerance, 2);
   const double left_out = lambda_left_out(n);
   if (left_out <= sigma) return true;
-  const auto n_below = [&](const ReducedModel& model, double end) {
-    const ReducedPairs pairs = pairs_in_range_(model);
-    return std::ranges::upper_bound(pairs.lambda, end) - pairs.lambda.begin();
+  const std::vector<double> ritz = pairs_in_range_(model_->model(n)).lambda;
+  const auto n_up_to = [](const std::vector<double>& lambda, double end) {
+    return std::ranges::upper_bound(lambda, end) - lambda.begin();
   };
-  const auto most = n_below(model_->heavier_model(n, sigma, left_out), sigma);
-  const auto found = n_below(model_->model(n), sigma * (1.0 + 2.0 * goal_.tolerance));
-  return linear::value_of_first_rank(most > found ? 1.0 : 0.0, petsc::communicator(system_.Psi)) !=
-         0.0;
+  const auto at_most = [&](double end) {
+    return n_up_to(pairs_in_range_(model_->heavier_model(n, end, left_out)).lambda, end);
+  };
+  const auto lacks = [&] {
+    std::ptrdiff_t i = n_up_to(ritz, sigma * tolerable);
+    double end = sigma;
+    for (std::ptrdiff_t most = at_most(end); most > n_up_to(ritz, end); most = at_most(end)) {
+      if (most > i) return true;
+      end = std::min(end, ritz[std::size_t(--i)] / tolerable);
+    }
+    return false;
+  };
+  return linear::value_of_first_rank(lacks() ? 1.0 : 0.0, petsc::communicator(system_.Psi)) != 0.0;
 }
 
 /// Of the modes at hand, those of the range.
@@ -228,7 +240,7 @@ petsc::Matrix deflated_inertia(const GrowingModel::System& system, Mat Phi, cons
 
 GrowingModel::GrowingModel(const System& system)
     : system_(system),
-      K_G_(guyan_stiffness(system.Psi, system.K)),
+      K_G_(guyan_stiffness(system.Psi, system.K, system.M)),
       M_G_(guyan_mass(system.Psi, system.M)),
       P_(0, M_G_.rows())
 {}

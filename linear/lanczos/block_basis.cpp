@@ -300,7 +300,8 @@ BlockBasis::Appended BlockBasis::append(Mat block)
 }
 
 /// A direction of negative length in M, beyond the round-off of its terms, is one of an indefinite
-/// M. Left out as dependent it would end the iteration with too few pairs.
+/// M. Left out as dependent it would end the iteration with too few pairs. Its length is computed
+/// anew: the Gram matrix has the round-off of the columns that cancel in it.
 void BlockBasis::refuse_negative_length(Mat block, const Orthonormalisation& o) const
 {
   constexpr double round_off = 1e-9, of_gram_matrix = 1e-10;
@@ -309,12 +310,13 @@ void BlockBasis::refuse_negative_length(Mat block, const Orthonormalisation& o) 
   petsc::check(MatZeroEntries(x));
   add_product(1.0, block, o.least_direction, x);
   const double terms = value_of_first_rank(diagonal_terms(x, M_)[0], comm());
-  if (o.least_square >= -round_off * std::abs(terms)) return;
+  const double square = value_of_first_rank(column_products(x, times_mass(x))[0], comm());
+  if (square >= -round_off * std::abs(terms)) return;
   throw Error(
       fmt::format("block Lanczos: x^T M x = {:.3g} for a vector x with sum M_ii x_i^2 = {:.3g}: M "
                   "(B of an EPS), the matrix of the inner product, is indefinite; it must be "
                   "positive semidefinite",
-                  o.least_square, terms));
+                  square, terms));
 }
 
 /// Q of block = Q R joins the basis, with what orthogonality Q lacked in the coefficients.

@@ -44,6 +44,18 @@ PetscInt lacking(PetscInt n, double excess)
   return static_cast<PetscInt>(n * std::clamp(0.025 * std::log10(excess), 0.04, 0.15));
 }
 
+constexpr double nothing = 1e-14;  // of the largest theta: no share of M
+
+/// The first pairs that have converged and have a share of M. Where M has no more of them, a basis
+/// ends with directions that the operator maps to zero; their theta are round-off of either sign,
+/// and would be the lowest of all lambda.
+PetscInt n_found_first(const RitzValues& pairs, double tolerance)
+{
+  PetscInt n = n_converged_first(pairs, tolerance);
+  while (n > 0 && !(pairs.theta[n - 1] > nothing * pairs.theta[0])) --n;
+  return n;
+}
+
 }  // namespace
 
 BlockLanczos::BlockLanczos(Mat factor, Mat M, const BlockLanczosOptions& options)
@@ -96,7 +108,7 @@ bool BlockLanczos::has_converged(Goal& goal)
   raise(goal);
   const PetscInt n_pairs = goal.n_pairs;
   const RitzValues pairs = iteration_.pairs();
-  const PetscInt n_first = n_converged_first(pairs, options_.tolerance);
+  const PetscInt n_first = n_found_first(pairs, options_.tolerance);
   n_converged_ = std::min(n_first, n_pairs);
   if (iteration_.is_exhausted()) return has_ended(pairs, n_pairs);
   next_look_ = n + lacking(n, excess(pairs, std::min(n_pairs, n), options_.tolerance));
@@ -133,7 +145,7 @@ void BlockLanczos::begin_anew(PetscInt n_kept, PetscInt n_pairs)
 /// converge, finds the others, except where round-off is all there is of them.
 bool BlockLanczos::has_ended(const RitzValues& pairs, PetscInt n_pairs)
 {
-  const PetscInt n_first = n_converged_first(pairs, options_.tolerance);
+  const PetscInt n_first = n_found_first(pairs, options_.tolerance);
   if (n_first >= n_pairs) return true;
   double theta = iteration_.lost_theta();
   for (std::size_t i = n_first; i < pairs.theta.size(); ++i)
@@ -150,7 +162,6 @@ bool BlockLanczos::has_ended(const RitzValues& pairs, PetscInt n_pairs)
 /// That pairs with theta up to this may exist, which do not converge.
 void BlockLanczos::note_unresolved(double theta)
 {
-  constexpr double nothing = 1e-14;  // of the largest: no share of M
   const double largest = iteration_.n_vectors() > 0 ? iteration_.theta(0) : theta;
   unresolved_from_ = theta > nothing * largest ? 1.0 / theta : all_of_them;
 }

@@ -167,26 +167,40 @@ TEST(EpsBlockLanczos, NeverSaysConvergedOfWhatIsNot)
   }
 }
 
-TEST(EpsBlockLanczos, HasTrueResidualsWhereASingularBEnds)
-{
-  constexpr PetscInt n = 200;
-  const petsc::Matrix A = matrix(n, 3, [](PetscInt i) {
+/// A chain on which pairs of DOFs share a mass: B has the rank n / 2, by round-off only.
+struct ChainWithSharedMasses {
+  static constexpr PetscInt n = 200;
+  petsc::Matrix A = matrix(n, 3, [](PetscInt i) {
     Row row{{i, 2.0}};
     if (i > 0) row.emplace_back(i - 1, -1.0);
     if (i < n - 1) row.emplace_back(i + 1, -1.0);
     return row;
   });
-  // Pairs of DOFs that share a mass: rank n / 2, by round-off only.
-  const double c = std::cos(0.3), s = std::sin(0.3);
-  const petsc::Matrix B = matrix(n, 2, [=](PetscInt i) {
+  petsc::Matrix B = matrix(n, 2, [](PetscInt i) {
+    const double c = std::cos(0.3), s = std::sin(0.3);
     return Row{{i, i % 2 == 0 ? c * c : s * s}, {i ^ 1, c * s}};
   });
-  const petsc::EigenSolver eps = solver(A, B, {.nev = n, .ncv = n});
+};
+
+TEST(EpsBlockLanczos, HasTrueResidualsWhereASingularBEnds)
+{
+  const ChainWithSharedMasses chain;
+  const petsc::EigenSolver eps = solver(chain.A, chain.B, {.nev = chain.n, .ncv = chain.n});
   petsc::check(EPSSolve(eps));
-  EXPECT_EQ(converged(eps).size(), n / 2u);
+  EXPECT_EQ(converged(eps).size(), chain.n / 2u);
   EPSConvergedReason reason = EPS_CONVERGED_ITERATING;
   petsc::check(EPSGetConvergedReason(eps, &reason));
   EXPECT_EQ(reason, EPS_DIVERGED_BREAKDOWN);  // B has no more
+}
+
+TEST(EpsBlockLanczos, FindsEveryShareOfTheRankOfASingularB)
+{
+  const ChainWithSharedMasses chain;
+  const petsc::EigenSolver whole = solver(chain.A, chain.B, {.nev = chain.n, .ncv = chain.n});
+  petsc::check(EPSSolve(whole));
+  const std::vector<double> all = converged(whole);
+  for (const PetscInt nev : {25, 50, 75, 99, 100})
+    expect_first(solver(chain.A, chain.B, {.nev = nev}), all);
 }
 
 TEST(EpsBlockLanczos, KeepsWithinTheSmallestBasis)
@@ -221,6 +235,24 @@ std::vector<double> laplacian_spectrum(PetscInt n)
   for (PetscInt k = 1; k <= n; ++k)
     lambda.push_back(4.0 * std::pow(std::sin(0.5 * k * std::numbers::pi / (n + 1)), 2));
   return lambda;
+}
+
+TEST(EpsBlockLanczos, TakesFewerStepsWhereARestartKeepsMore)
+{
+  const petsc::Matrix A = laplacian(400);
+  PetscInt steps[2];
+  for (const int k : {0, 1}) {
+    petsc::check(PetscOptionsSetValue(nullptr, "-kept_eps_blocklanczos_restart", k ? "0.6" : "0"));
+    const petsc::EigenSolver eps = solver(A, nullptr, {.nev = 4, .inverts = false, .ncv = 40});
+    petsc::check(EPSSetOptionsPrefix(eps, "kept_"));
+    petsc::check(EPSSetFromOptions(eps));
+    petsc::check(EPSSetTolerances(eps, 1e-6, 10000));
+    petsc::check(EPSSolve(eps));
+    petsc::check(EPSGetIterationNumber(eps, &steps[k]));
+    EXPECT_GE(converged(eps).size(), 4u);
+  }
+  EXPECT_LT(steps[1], 0.8 * steps[0]);
+  petsc::check(PetscOptionsClearValue(nullptr, "-kept_eps_blocklanczos_restart"));
 }
 
 /// Of a grid of 72 x 72, the four largest: with blocks of 8, a basis of 20 restarted for ever.

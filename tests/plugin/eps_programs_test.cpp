@@ -823,6 +823,84 @@ TEST(EpsPrograms, OptionsWithAPrefix)
   expect_the_first(eps, nearest(spectrum(A, nullptr), 0.2));
 }
 
+/// A test of convergence sees eigenvalues with their sign, also those of an interval.
+TEST(EpsPrograms, ConvergenceTestOfAnIntervalSeesItsEigenvalues)
+{
+  const petsc::Matrix A = diagonal(150, [](PetscInt i) { return 0.1 * double(i) - 10.05; });
+  static double lowest, highest;
+  lowest = 1e9;
+  highest = -1e9;
+  const petsc::EigenSolver eps = program(A, nullptr, 1);
+  petsc::check(EPSSetConvergenceTestFunction(
+      eps,
+      [](EPS, PetscScalar value, PetscScalar, PetscReal residual, PetscReal* error,
+         void*) -> PetscErrorCode {
+        lowest = std::min(lowest, value);
+        highest = std::max(highest, value);
+        *error = residual;
+        return 0;
+      },
+      nullptr, nullptr));
+  seek_interval(eps, -6.0, -2.0);
+  expect_all(eps, between(spectrum(A, nullptr), -6.0, -2.0));
+  EXPECT_GT(lowest, -6.2);
+  EXPECT_LT(highest, -1.8);
+}
+
+/// Error estimates of an interval are those of eigenvalues: in units 2^20 times smaller they are as
+/// many times larger, to the last bit.
+TEST(EpsPrograms, ErrorsOfAnIntervalHaveTheUnitOfItsEigenvalues)
+{
+  constexpr double unit = 1 << 20;
+  std::vector<double> errors[2];
+  for (const int k : {0, 1}) {
+    const double u = k == 0 ? 1.0 : unit;
+    const petsc::Matrix A = chain_of(150, 2.0 * u, -u);
+    const petsc::EigenSolver eps = program(A, nullptr, 1);
+    seek_interval(eps, 0.3 * u, 0.9 * u);
+    const std::size_t n = solved(eps).size();
+    ASSERT_GT(n, 10u);
+    for (std::size_t i = 0; i < n; ++i) {
+      PetscReal error = 0.0;
+      petsc::check(EPSGetErrorEstimate(eps, static_cast<PetscInt>(i), &error));
+      errors[k].push_back(error);
+    }
+  }
+  ASSERT_EQ(errors[0].size(), errors[1].size());
+  for (std::size_t i = 0; i < errors[0].size(); ++i)
+    EXPECT_NEAR(errors[1][i], unit * errors[0][i], 1e-9 * errors[1][i]) << i;
+}
+
+/// Lengths of vectors that are orthonormal in a light or a heavy B are far from one.
+TEST(EpsPrograms, TrueResidualsInAnyUnitOfMass)
+{
+  const petsc::Matrix A = chain_of(200);
+  for (const double mass : {1e-12, 1e12}) {
+    const petsc::Matrix B =
+        diagonal(200, [=](PetscInt i) { return i % 3 == 0 ? 2.0 * mass : mass; });
+    std::vector<double> exact =
+        spectrum(A, diagonal(200, [](PetscInt i) { return i % 3 == 0 ? 2.0 : 1.0; }));
+    for (double& value : exact) value /= mass;
+    const petsc::EigenSolver eps = program(A, B, 5);
+    invert_at(eps, 0.0);
+    petsc::check(EPSSetTrueResidual(eps, PETSC_TRUE));
+    petsc::check(EPSSetTolerances(eps, 1e-9, petsc::automatic));
+    const std::vector<double> values = solved(eps);
+    EPSConvergedReason reason = EPS_CONVERGED_ITERATING;
+    petsc::check(EPSGetConvergedReason(eps, &reason));
+    EXPECT_GT(reason, 0);
+    ASSERT_GE(values.size(), 5u);
+    for (std::size_t i = 0; i < 5; ++i) {
+      PetscReal printed = 0.0, estimate = 0.0;
+      EXPECT_NEAR(values[i] / exact[i], 1.0, 1e-9) << i;
+      petsc::check(EPSComputeError(eps, static_cast<PetscInt>(i), EPS_ERROR_RELATIVE, &printed));
+      petsc::check(EPSGetErrorEstimate(eps, static_cast<PetscInt>(i), &estimate));
+      EXPECT_LE(printed, 1e-9);
+      EXPECT_NEAR(estimate, printed, 0.01 * printed) << i;
+    }
+  }
+}
+
 TEST(EpsPrograms, TwoIntervalsOfAGeneralisedProblem)
 {
   const petsc::Matrix A = grid(12, 11), B = varied_mass(132);

@@ -243,6 +243,64 @@ petsc::Matrix with_nine_digits(const Eigen::MatrixXd& A)
   });
 }
 
+/// A chain, on the ground or free, and two rows without mass that one bar ties to its mass 5:
+/// across the bar they move with neither stiffness nor mass.
+linear::testing::Chain chain_with_massless_rows(double ground, double angle)
+{
+  constexpr PetscInt n_masses = 12, x = n_masses, y = n_masses + 1;
+  std::vector<testing::ElementPencil> elements;
+  for (PetscInt i = 0; i < n_masses; ++i) {
+    const PetscInt next = (i + 1) % n_masses;
+    Eigen::MatrixXd spring(2, 2), mass = Eigen::MatrixXd::Zero(2, 2);
+    const double k = next == 0 ? 0.0 : 1.0 + i;
+    spring << k, -k, -k, k;
+    mass(0, 0) = 2.0;
+    elements.push_back({.dofs = {i, next}, .K = spring, .M = mass});
+  }
+  const Eigen::Vector3d bar(std::cos(angle), std::sin(angle), -1.0);
+  elements.push_back({.dofs = {x, y, 5}, .K = bar * bar.transpose(), .M = Eigen::Matrix3d::Zero()});
+  Eigen::MatrixXd spring = Eigen::MatrixXd::Constant(1, 1, ground);
+  elements.push_back({.dofs = {0}, .K = spring, .M = Eigen::MatrixXd::Zero(1, 1)});
+  return testing::assemble(n_masses + 2, elements);
+}
+
+TEST(GuyanStiffness, RefusesAMotionWithoutMassWhicheverOfItsRowsAreMasters)
+{
+  struct Case {
+    double ground;
+    std::vector<PetscInt> masters;
+  };
+  // In the first two K_G vanishes altogether; in the last ones the mass of other rows is in M_G.
+  for (const Case& c : {Case{0.0, {0, 13}},
+                        {1.0, {13}},
+                        {0.0, {5, 13}},
+                        {0.0, {0, 12, 13}},
+                        {1.0, {3, 12, 13}},
+                        {1.0, {5, 12, 13}}}) {
+    for (double angle = 0.3; angle < 6.3; angle += 0.3) {
+      const linear::testing::Chain pencil = chain_with_massless_rows(c.ground, angle);
+      const DofPartition dofs = partition(pencil.K, master_set(pencil.K, c.masters));
+      const Blocks K = split(pencil.K, dofs), M = split(pencil.M, dofs);
+      const petsc::Matrix Psi = constraint_modes(linear::factorize(K.ss), K);
+      EXPECT_THROW(guyan_stiffness(Psi, K, M), Error)
+          << c.masters.size() << " masters, angle " << angle;
+    }
+  }
+}
+
+TEST(GuyanStiffness, TakesALightMotionForWhatItIs)
+{
+  linear::testing::Chain pencil = chain_with_massless_rows(0.0, 0.7);
+  for (const PetscInt row : {12, 13})
+    if (petsc::rank(PETSC_COMM_WORLD) == 0)
+      petsc::check(MatSetValue(pencil.M, row, row, 1e-9, ADD_VALUES));
+  linear::testing::finish(pencil.M);
+  const DofPartition dofs = partition(pencil.K, master_set(pencil.K, {0, 12, 13}));
+  const Blocks K = split(pencil.K, dofs), M = split(pencil.M, dofs);
+  const petsc::Matrix Psi = constraint_modes(linear::factorize(K.ss), K);
+  EXPECT_EQ(guyan_stiffness(Psi, K, M).R.cols(), 2);
+}
+
 TEST(GuyanStiffness, HasSixRigidMotionsOfABlockWhoseFileHasNineDigits)
 {
   const testing::Body block = testing::solid_block({3, 2, 2}, {0.3, 0.1, 0.12});
@@ -252,9 +310,9 @@ TEST(GuyanStiffness, HasSixRigidMotionsOfABlockWhoseFileHasNineDigits)
     for (PetscInt component = 0; component < 3; ++component)
       masters.push_back(3 * node + component);
   const DofPartition dofs = partition(K_all, master_set(K_all, masters));
-  const Blocks K = split(K_all, dofs);
+  const Blocks K = split(K_all, dofs), M = split(block.pencil.M, dofs);
   const petsc::Matrix Psi = constraint_modes(linear::factorize(K.ss), K);
-  const GuyanStiffness guyan = guyan_stiffness(Psi, K);
+  const GuyanStiffness guyan = guyan_stiffness(Psi, K, M);
   ASSERT_EQ(guyan.R.cols(), 6);
   EXPECT_LT((guyan.K * guyan.R).norm(), 1e-12 * guyan.K.norm() * guyan.R.norm());
   // They are the rigid motions of the masters, as far as nine digits go.

@@ -265,19 +265,14 @@ TEST(ToleranceSearch, TakesTheFirstNumberOfModesThatKeepsTheTolerance)
     EXPECT_LT(std::sqrt(1.0 + true_error(pairs, k)) - 1.0, tolerance) << k;
 }
 
-/// A mode above the range that pulls a frequency of the master into it: without the mode that
-/// frequency lies far above the range, and has no estimate there.
-TEST(ToleranceSearch, LacksNoFrequencyOfTheRange)
+/// Modes that the search takes for a tolerance of 0.1 where row 0 is the master.
+/// @param end  of the range, rad^2/s^2
+std::size_t n_modes_to_a_tenth(const linear::testing::Chain& pencil, double end)
 {
-  testing::ElementPencil element{.dofs = {0, 1, 2}, .K = MatrixXd(3, 3), .M = MatrixXd(3, 3)};
-  element.K << 20.0, 0.0, 0.0, 0.0, 7.0, 0.0, 0.0, 0.0, 8.4;
-  element.M << 1.0, 0.01, 0.9, 0.01, 1.0, 0.0, 0.9, 0.0, 1.0;  // frequencies^2: 6.19, 7.0, 142
-  const linear::testing::Chain pencil = testing::assemble(3, {element});
   const DofPartition dofs = partition(pencil.K, master_set(pencil.K, {0}));
   const Blocks K = split(pencil.K, dofs), M = split(pencil.M, dofs);
   const linear::Factorization K_ss = linear::factorize(K.ss);
   const petsc::Matrix Psi = constraint_modes(K_ss, K);
-  const double end = 8.0;  // of the range
   const auto in_range = [&](const ReducedModel& model) {
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(model.K, model.M);
     const auto k = (eigen.eigenvalues().array() < 1.5 * end).count();
@@ -291,7 +286,30 @@ TEST(ToleranceSearch, LacksNoFrequencyOfTheRange)
   do {
     search.find_modes();
   } while (!search.is_enough());
-  EXPECT_EQ(search.modes().omega.size(), 2u);
+  return search.modes().omega.size();
+}
+
+/// A mode above the range that pulls a frequency of the master into it: without the mode that
+/// frequency lies far above the range, and has no estimate there.
+TEST(ToleranceSearch, LacksNoFrequencyOfTheRange)
+{
+  testing::ElementPencil element{.dofs = {0, 1, 2}, .K = MatrixXd(3, 3), .M = MatrixXd(3, 3)};
+  element.K << 20.0, 0.0, 0.0, 0.0, 7.0, 0.0, 0.0, 0.0, 8.4;
+  element.M << 1.0, 0.01, 0.9, 0.01, 1.0, 0.0, 0.9, 0.0, 1.0;  // frequencies^2: 6.19, 7.0, 142
+  EXPECT_EQ(n_modes_to_a_tenth(testing::assemble(3, {element}), 8.0), 2u);
+}
+
+/// Beside it a mode of slaves alone that lies above the range, but within the tolerance: it is
+/// exact, and no counterpart of the frequency that the next mode pulls into the range.
+TEST(ToleranceSearch, TakesNoOtherFrequencyForTheOneThatIsMissing)
+{
+  testing::ElementPencil element{
+      .dofs = {0, 1, 2, 3}, .K = MatrixXd::Zero(4, 4), .M = MatrixXd::Identity(4, 4)};
+  element.K.diagonal() << 20.0, 7.0, 8.5, 8.8;
+  element.M(0, 1) = element.M(1, 0) = 0.01;
+  element.M(0, 3) = element.M(3, 0) = 0.9;  // frequencies^2: 6.38, 7.0, 8.5, 145
+  const linear::testing::Chain pencil = testing::assemble(4, {element});
+  EXPECT_EQ(n_modes_to_a_tenth(pencil, 8.0), 3u);
 }
 
 /// Pairs of two chains that nothing couples, of each by turns: they are estimated in blocks of the

@@ -136,6 +136,38 @@ double exact_with_end_held(int k)
          std::pow(std::sin((2 * k - 1) * std::numbers::pi / (2.0 * (2 * n_of_mixed_chain - 1))), 2);
 }
 
+/// A mode of a master that nothing couples is a constraint mode: the residual flexibility adds
+/// nothing for it, and round-off is no direction of the basis, whatever the number of ranks.
+TEST(Rubin, AddsNothingForAMasterThatMovesAlone)
+{
+  constexpr PetscInt n_rows = n_of_mixed_chain + 1;
+  constexpr double hardly_coupled = 1e-13;
+  const double second =
+      4.0 * std::pow(std::sin(1.5 * std::numbers::pi / (2 * n_of_mixed_chain + 1)), 2);
+  for (const double apart : {1e-5, 1e-3, 1e-2}) {  // from a mode of the chain, which it mixes with
+    const double k = second * (1.0 + apart);
+    const petsc::Matrix K_all = linear::testing::matrix(n_rows, 4, [&](PetscInt i) {
+      if (i == n_of_mixed_chain)
+        return linear::testing::Row{{n_of_mixed_chain / 2, -hardly_coupled}, {i, k}};
+      linear::testing::Row row{{i, i + 1 < n_of_mixed_chain ? 2.0 : 1.0}};
+      if (i > 0) row.emplace_back(i - 1, -1.0);
+      if (i + 1 < n_of_mixed_chain) row.emplace_back(i + 1, -1.0);
+      if (i == n_of_mixed_chain / 2) row.emplace_back(n_of_mixed_chain, -hardly_coupled);
+      return row;
+    });
+    const petsc::Matrix M_all = linear::testing::diagonal(n_rows, [](PetscInt) { return 1.0; });
+    const DofPartition dofs = partition(K_all, master_set(K_all, {0, n_of_mixed_chain}));
+    const Blocks K = split(K_all, dofs), M = split(M_all, dofs);
+    const linear::Factorization K_ss = linear::factorize(K.ss);
+    const petsc::Matrix Psi = constraint_modes(K_ss, K);
+    const WholeSystem body{
+        .K = K_all, .M = M_all, .dofs = dofs, .K_blocks = K, .M_blocks = M, .K_ss = K_ss};
+    const MixedInterfaceModes modes = mixed_interface_modes(body, Psi, {.modes = 5});
+    ASSERT_EQ(modes.n_modes(), 5);
+    EXPECT_EQ(residual_modes(body, modes).omega.size(), 4u) << "apart by " << apart;
+  }
+}
+
 TEST(MixedInterfaceModes, AreThoseOfTheBodyWithTheHeldMasters)
 {
   const ReducedChain reduced;
@@ -253,6 +285,47 @@ TEST(MixedInterfaceModes, OfPartsAreNoMoreThanTheElasticOnes)
     }
     EXPECT_THROW(mixed_interface_modes(two.body, two.Psi, {.modes = n_all + 1}, held), Error);
   }
+}
+
+/// A held mass has a share of M that the flexibility maps to zero, and a row without mass leaves a
+/// part fewer modes than free rows: what round-off makes of the rest, of either sign, is no mode.
+TEST(MixedInterfaceModes, OfPartsWithMasslessRowsAreThoseOfTheMasses)
+{
+  constexpr PetscInt n_parts = 24;  // mass, row without mass, held mass
+  const auto stiffness = [](PetscInt row) { return 1.0 + std::fmod(0.37 * double(row), 3.0); };
+  const petsc::Matrix K_all = linear::testing::matrix(3 * n_parts, 3, [&](PetscInt i) {
+    const PetscInt place = i % 3, first = i - place;
+    const double near = stiffness(first), far = stiffness(first + 1);
+    if (place == 0) return linear::testing::Row{{i, near}, {i + 1, -near}};
+    if (place == 1) return linear::testing::Row{{i - 1, -near}, {i, near + far}, {i + 1, -far}};
+    return linear::testing::Row{{i - 1, -far}, {i, far}};
+  });
+  const petsc::Matrix M_all = linear::testing::diagonal(
+      3 * n_parts, [](PetscInt i) { return i % 3 == 1 ? 0.0 : 1.0 + 0.1 * double(i % 7); });
+  std::vector<PetscInt> masters;
+  std::vector<int> held;
+  std::vector<double> lambda;
+  for (PetscInt p = 0; p < n_parts; ++p) {
+    const double near = stiffness(3 * p), far = stiffness(3 * p + 1);
+    lambda.push_back(near * far / (near + far) / (1.0 + 0.1 * double(3 * p % 7)));
+    masters.push_back(3 * p + 2);
+    held.push_back(static_cast<int>(p));
+  }
+  std::ranges::sort(lambda);
+  const DofPartition dofs = partition(K_all, master_set(K_all, masters));
+  const Blocks K = split(K_all, dofs), M = split(M_all, dofs);
+  const linear::Factorization K_ss = linear::factorize(K.ss);
+  const petsc::Matrix Psi = constraint_modes(K_ss, K);
+  const WholeSystem body{
+      .K = K_all, .M = M_all, .dofs = dofs, .K_blocks = K, .M_blocks = M, .K_ss = K_ss};
+  for (const ReduceOptions& wanted :
+       {ReduceOptions{.modes = n_parts}, ReduceOptions{.cutoff_Hz = 1e30}}) {
+    const MixedInterfaceModes modes = mixed_interface_modes(body, Psi, wanted, held);
+    ASSERT_EQ(modes.n_modes(), n_parts);
+    for (PetscInt k = 0; k < n_parts; ++k)
+      EXPECT_NEAR(std::pow(modes.omega[k], 2) / lambda[k], 1.0, 1e-9) << k;
+  }
+  EXPECT_THROW(mixed_interface_modes(body, Psi, {.modes = n_parts + 1}, held), Error);
 }
 
 TEST(MixedInterface, KeepsTheModesUnderItsSupport)

@@ -290,6 +290,31 @@ void check_spectrum(const Reference& exact, const Answer& answer, Failures& fail
   check_distances(exact, answer, failures);
 }
 
+namespace {
+
+/// Whether a message says that M has too few digits, of an M that is singular to nine of them:
+/// round-off decides then how far its pairs come, on other ranks otherwise.
+bool lacks_digits(const Reference& exact, const std::string& message)
+{
+  constexpr double nine_digits = 1e-9;  // of a matrix with unit diagonal
+  const bool says_so = message.find("M is nearly singular") != std::string::npos ||
+                       message.find("the mass of a coordinate is round-off") != std::string::npos;
+  if (!says_so) return false;
+  const VectorXd d = exact.M.diagonal();
+  const VectorXd scale = (d.array() > 0.0).select(d.array().rsqrt(), 0.0);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
+      MatrixXd(scale.asDiagonal() * exact.M * scale.asDiagonal()), Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues()[0] < nine_digits;
+}
+
+/// The property that a refusal of a sound pencil lacks.
+std::string refused(const Reference& exact, const std::string& message)
+{
+  return lacks_digits(exact, message) ? "digits-of-M" : "refused";
+}
+
+}  // namespace
+
 Failures check_refusal(const Pencil& pencil, const Answer& answer)
 {
   if (!answer.code) return {{"accepted", "it must be refused: " + pencil.refusal}};
@@ -301,7 +326,7 @@ Failures check_refusal(const Pencil& pencil, const Answer& answer)
 
 Failures check(const Reference& exact, const Reduction& how, const Answer& answer)
 {
-  if (answer.code) return {{"refused", answer.message}};
+  if (answer.code) return {{refused(exact, answer.message), answer.message}};
   Failures failures;
   check_number_of_modes(exact, how, answer, failures);
   if (is(how, CMSCRAIGBAMPTON)) check_modes(exact, answer, failures);
@@ -394,7 +419,9 @@ Failures compare(const Reference& exact, const Answer& all, const Answer& one)
   Failures failures;
   const auto differs = [&](const std::string& figures) { failures.push_back({"ranks", figures}); };
   if ((all.code == 0) != (one.code == 0)) {
-    differs(fmt::format("all: {}; one: {}", all.message, one.message));
+    const bool is_due = lacks_digits(exact, all.code ? all.message : one.message);
+    failures.push_back({is_due ? "digits-of-M" : "ranks",
+                        fmt::format("all: {}; one: {}", all.message, one.message)});
     return failures;
   }
   if (all.code) return failures;
