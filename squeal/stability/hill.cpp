@@ -41,16 +41,14 @@ constexpr double bytes_an_entry = 48.0;
 /// @param N  angles
 void require_room(double speed, Index m, Index N)
 {
-  const double bytes_of_GiB = double(1 << 30);
+  const double gibibyte = double(1 << 30);
   const double n_threads = std::max(1U, std::thread::hardware_concurrency());
-  const double needed =
-      bytes_an_entry * double(m) * double(m) * double(N) * n_threads / bytes_of_GiB;
-  const double machine =
-      double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE)) / bytes_of_GiB;
+  const double needed = bytes_an_entry * double(m) * double(m) * double(N) * n_threads / gibibyte;
+  const double machine = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE)) / gibibyte;
   if (needed <= machine) return;
   throw Error(fmt::format(
       "stability over a rotation at {:.6g} rad/s: {} modes at {} angles of the disc "
-      "need {:.3g} bytes_of_GiB, and the machine has {:.3g} GiB; the disc is not axisymmetric: "
+      "need {:.3g} gibibyte, and the machine has {:.3g} GiB; the disc is not axisymmetric: "
       "mesh it so, or keep fewer modes in [body]",
       speed, m / 2, N, needed, machine));
 }
@@ -141,7 +139,7 @@ using Complex = std::complex<double>;
 /// equations of the group leave open.
 constexpr double growth_error = 1e-8, part_of_error = 0.1;
 constexpr Index n_steps_max = Index{1} << 18;
-/// Of the matrices of all steps of a group together: 2 bytes_of_GiB, and hours.
+/// Of the matrices of all steps of a group together: 2 gibibyte, and hours.
 constexpr double entries_max = double(1 << 27);
 /// Halvings that do not lessen the change before there are no more.
 constexpr int stuck_refinements_max = 2;
