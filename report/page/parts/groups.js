@@ -191,7 +191,7 @@ class GroupViewer extends Viewer {
 // 0.0312 m^2, or nothing where the size is not known.
 function sizeOf(group) {
   if (!(group.size > 0)) return "";
-  return `${formatted(group.size)} ${group.kind === "surface" ? "m²" : "m"}`;
+  return `${formatted(group.size)} ${({volume: "m³", surface: "m²"})[group.kind] ?? "m"}`;
 }
 
 function saidOfGroup(group) {
@@ -202,7 +202,7 @@ function saidOfGroup(group) {
 }
 
 function groupTable(groups) {
-  const made = table(["group", "kind", "nodes", "area or length"],
+  const made = table(["group", "kind", "nodes", "size"],
                      groups.map(group => [group.name, group.kind, String(group.n_nodes), sizeOf(group)]));
   [...made.tBodies[0].rows].forEach((row, g) => {
     row.dataset.group = g;
