@@ -505,7 +505,8 @@ std::string histogram(const Measure& measure, const Statistics& s)
 
 std::string quality_text(const std::vector<mesh::ElementQuality>& elements)
 {
-  if (elements.empty()) return "no shells, whose shapes are measured; solids are checked at their integration points\n";
+  if (elements.empty())
+    return "no shells, whose shapes are measured; solids are checked at their integration points\n";
   TextTable table{.header = {"shape of the elements", "min", "mean", "max"}, .rows = {}};
   std::string histograms;
   for (const Measure& measure : measures()) {

@@ -56,8 +56,6 @@ inline constexpr int lumped_steps_per_period = 40;
 /// A transient of a lumped brake at constant speed by fixed steps of order 8, at t_i = i step. A
 /// step in which a contact opens or closes is of first order.
 class LumpedSteps final : public TransientSteps {
-  /// @param brake  must outlive the steps
-  /// @param step   s
  public:
   /// @param brake  outlives the steps
   /// @param step   s
