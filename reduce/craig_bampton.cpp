@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,13 +17,23 @@ using Eigen::MatrixXd;
 
 namespace {
 
+/// Rows of masters without mass hold the round-off of their terms, which may be negative: they are
+/// zero.
 /// @param Psi_M_Psi  Psi^T M_ss Psi
 MatrixXd guyan_mass(Mat Psi, const Blocks& M, const MatrixXd& Psi_M_Psi)
 {
+  constexpr double round_off = 64.0 * std::numeric_limits<double>::epsilon();
   const MatrixXd M_mm = linear::replicate(M.mm), Psi_M_sm = linear::inner_product_sparse(Psi, M.sm);
   MatrixXd M_G(M_mm.rows(), M_mm.cols());
   M_G.triangularView<Eigen::Upper>() =
       0.5 * (M_mm + M_mm.transpose()) + Psi_M_sm + Psi_M_sm.transpose() + Psi_M_Psi;
+  for (Eigen::Index i = 0; i < M_G.rows(); ++i) {
+    const double largest =
+        std::max({std::abs(M_mm(i, i)), std::abs(Psi_M_sm(i, i)), std::abs(Psi_M_Psi(i, i))});
+    if (std::abs(M_G(i, i)) > round_off * largest) continue;
+    M_G.row(i).setZero();
+    M_G.col(i).setZero();
+  }
   return M_G.selfadjointView<Eigen::Upper>();
 }
 

@@ -438,8 +438,8 @@ Failures compare(const Reference& exact, const Answer& all, const Answer& one)
   for (std::size_t i = 0; i < std::min(all.lambda.size(), one.lambda.size()); ++i) {
     const std::size_t at = exact.n_rigid + i;
     const bool is_known = at < exact.whole.lambda.size();
-    const double allowed =
-        same * one.lambda[i] + (is_known ? 2.0 * rounding_of_solver(exact.whole, at) : 0.0);
+    const double allowed = (same + all.rounding_of(i) + one.rounding_of(i)) * one.lambda[i] +
+                           (is_known ? 2.0 * rounding_of_solver(exact.whole, at) : 0.0);
     if (std::abs(all.lambda[i] - one.lambda[i]) <= allowed) continue;
     differs(
         fmt::format("frequency {}: lambda {:.12g}; one: {:.12g}", i, all.lambda[i], one.lambda[i]));

@@ -215,9 +215,10 @@ Reduction draw_reduction(Dice& dice, const Reference& exact)
   const int n_rigid = exact.n_rigid, n = static_cast<int>(exact.whole.lambda.size());
   const int kind = n_held == 0 ? 0 : dice.integer(0, 8);
   if (kind == 0) return {.type = CMSGUYAN};
+  if (n == n_rigid && kind >= 4) return {.type = CMSGUYAN};  // no mode to ask for
   const int few = std::max(1, (n - n_rigid) / 3);
   if (kind == 6) return {.type = CMSMIXED, .modes = dice.integer(1, few)};
-  if (kind >= 7 && n > n_rigid) {
+  if (kind >= 7) {
     return {.type = kind == 7 ? CMSMIXED : CMSAUTO,
             .tolerance = dice.spread(1e-6, 1e-1),
             .up_to_Hz =
@@ -228,7 +229,7 @@ Reduction draw_reduction(Dice& dice, const Reference& exact)
     return {.cutoff_Hz =
                 in_Hz(exact.held.lambda[dice.integer(0, n_held - 1)] * dice.uniform(1.0001, 2.0))};
   }
-  if (kind == 4 && n > n_rigid) {
+  if (kind == 4) {
     return {.tolerance = dice.spread(1e-6, 1e-1),
             .up_to_Hz =
                 in_Hz(exact.whole.lambda[dice.integer(n_rigid, n - 1)] * dice.uniform(0.9, 1.5))};

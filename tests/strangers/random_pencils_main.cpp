@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <map>
 #include <sstream>
+#include <vector>
 
 #include "random_pencils.hpp"
 #include "random_sectors.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 struct Options {
   std::uint64_t first = 1, count = 1000, sectors = 0;
+  std::vector<std::uint64_t> also;
   std::string known;
   int shown = 3;  ///< examples of each property
   bool prints_spectra = false;
@@ -65,9 +67,10 @@ void print_spectra(const Draw& drawn, const Answer& answer)
              fmt::join(drawn.exact.whole.lambda, " "), fmt::join(drawn.exact.held.lambda, " "));
   std::vector<double> modes;
   for (int k = answer.n_masters; k < answer.K_r.rows(); ++k) modes.push_back(answer.K_r(k, k));
-  fmt::print("  modes {:.12g}\n  reduced {:.12g}\n  eta2 {:.3g}\n  bounds {:.3g}\n",
-             fmt::join(modes, " "), fmt::join(answer.lambda, " "), fmt::join(answer.eta2, " "),
-             fmt::join(answer.bounds, " "));
+  fmt::print(
+      "  modes {:.12g}\n  reduced {:.12g}\n  eta2 {:.3g}\n  bounds {:.3g}\n  rounding {:.3g}\n",
+      fmt::join(modes, " "), fmt::join(answer.lambda, " "), fmt::join(answer.eta2, " "),
+      fmt::join(answer.bounds, " "), fmt::join(answer.rounding, " "));
 }
 
 /// On the first rank.
@@ -91,7 +94,9 @@ int run(const Options& options)
 {
   const bool is_first = petsc::rank(PETSC_COMM_WORLD) == 0;
   Tally tally(is_first ? options.shown : 0);
-  for (std::uint64_t seed = options.first; seed < options.first + options.count; ++seed) {
+  std::vector<std::uint64_t> seeds = options.also;
+  for (std::uint64_t k = 0; k < options.count; ++k) seeds.push_back(options.first + k);
+  for (const std::uint64_t seed : seeds) {
     const Draw drawn = draw(seed);
     const Answer answer = reduce(drawn.pencil, drawn.how, PETSC_COMM_WORLD);
     if (options.prints_spectra && is_first) print_spectra(drawn, answer);
@@ -102,8 +107,8 @@ int run(const Options& options)
     tally.add(fmt::format("sector {}", seed), trial.words, trial.failures);
   }
   if (!is_first) return 0;
-  fmt::print("{} pencils and {} sectors from seed {} on, {} ranks\n", options.count,
-             options.sectors, options.first, petsc::size(PETSC_COMM_WORLD));
+  fmt::print("{} pencils and {} sectors from seed {} on, {} others, {} ranks\n", options.count,
+             options.sectors, options.first, options.also.size(), petsc::size(PETSC_COMM_WORLD));
   return tally.verdict(options.known);
 }
 
@@ -117,6 +122,7 @@ int main(int argc, char** argv)
   app.add_option("--seed", options.first, "of the first pencil; the others count on from it");
   app.add_option("--count", options.count, "of pencils");
   app.add_option("--sectors", options.sectors, "harmonics of rings about random axes");
+  app.add_option("--also", options.also, "seeds of further pencils");
   app.add_option("--known", options.known, "properties that may fail, in one string");
   app.add_option("--shown", options.shown, "examples of each property that fails");
   app.add_flag("--spectra", options.prints_spectra, "print the eigenvalues of every pencil");

@@ -253,17 +253,20 @@ std::string words_of_sector(const SectorDraw& drawn)
       fmt::join(drawn.masters, " "), fmt::join(drawn.held, " "), drawn.how.type, drawn.how.modes);
 }
 
-/// The same frequencies on all ranks and on one.
+/// The same frequencies on all ranks and on one, but for the rounding that both state.
 void compare_ranks(const Answer& all, const Answer& one, Failures& failures)
 {
   constexpr double same = 1e-9;
   bool is_same = (all.code == 0) == (one.code == 0) && all.lambda.size() == one.lambda.size();
-  for (std::size_t i = 0; is_same && i < all.lambda.size(); ++i)
-    is_same = std::abs(all.lambda[i] - one.lambda[i]) <= same * one.lambda.back();
+  for (std::size_t i = 0; is_same && i < all.lambda.size(); ++i) {
+    is_same = std::abs(all.lambda[i] - one.lambda[i]) <=
+              same * one.lambda.back() + (all.rounding_of(i) + one.rounding_of(i)) * one.lambda[i];
+  }
   if (is_same) return;
   failures.push_back(
-      {"ranks", fmt::format("{} {}; one: {} {}", all.message, fmt::join(all.lambda, " "),
-                            one.message, fmt::join(one.lambda, " "))});
+      {"ranks",
+       fmt::format("{} {}; one: {} {}; rounding {:.1e}", all.message, fmt::join(all.lambda, " "),
+                   one.message, fmt::join(one.lambda, " "), fmt::join(one.rounding, " "))});
 }
 
 }  // namespace
