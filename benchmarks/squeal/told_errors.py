@@ -2,10 +2,12 @@
 """Do the errors that `squeal run` tells hold what finer meshes find? Writes OUTPUT/told_errors.json and .md.
 
 usage: told_errors.py [--quick] [--programs DIR] OUTPUT
+       told_errors.py --random COUNT [--seed SEED] [--programs DIR]
 
 Twelve discs on four meshes each, every mesh again with elements of half and of a quarter of the size, under four brakes of
 other friction, stiffness and number of pads. Of each mode that grows, and of each critical speed, the error told on the mesh
-is compared with the larger one of the differences to the two finer meshes.
+is compared with the larger one of the differences to the two finer meshes. With --random so many discs, meshes and brakes
+are drawn instead, each compared with elements of half the size; nothing is written.
 """
 import argparse
 import json
@@ -139,6 +141,39 @@ def compared(mesh, finer):
     return rows
 
 
+def draw(seed):
+    """A disc and a brake of their own, in DISCS and BRAKES by their name; order and size of the elements."""
+    dice = np.random.default_rng(seed)
+    name = f"seed {seed}"
+    outer, young = dice.uniform(0.08, 0.25), dice.uniform(7e10, 2.1e11)
+    inner, poisson, density = outer * dice.uniform(0.15, 0.65), dice.uniform(0.25, 0.33), dice.uniform(2600.0, 7900.0)
+    width, wave_speed = outer - inner, np.sqrt(young / density)
+    thickness = width * dice.uniform(0.06, 0.25)
+    up_to_Hz = round(thickness * wave_speed * max(1.5 / outer**2, 0.25 / width**2))
+    DISCS[name] = (inner, outer, inner + width * dice.uniform(0.6, 0.85), thickness, young, poisson, density, up_to_Hz)
+    angles = tuple(round(angle, 1) for angle in dice.uniform(0.0, 360.0, dice.integers(1, 3)))
+    BRAKES[name] = (dice.uniform(0.2, 0.7), 10.0 ** dice.uniform(6.5, 7.9), angles,
+                    POINT if dice.random() < 0.4 else f"radius = {width * dice.uniform(0.05, 0.14):.5f}")
+    order = int(dice.integers(2, 4))
+    return name, order, size_of(name, dice.uniform(0.2, 0.3) if order == 2 else dice.uniform(0.28, 0.4))
+
+
+def try_random(programs, folder, count, seed):
+    """Whether no error told of so many draws is below the difference found."""
+    rows = []
+    for each in range(seed, seed + count):
+        name, order, size = draw(each)
+        mesh, finer = (solved(programs, folder, name, order, part, [name], tells=part == size)[name] for part in (size, size / 2))
+        new = compared(mesh, [finer])
+        for row in new:
+            if row["told"] < max(row["found"]):
+                print(f"{name}: {row['of']} {row['value']:.6g}: told {row['told']:.3g}, found {max(row['found']):.3g}; "
+                      f"order {order}, {size:.4g} m, disc {DISCS[name]}, brake {BRAKES[name]}", flush=True)
+        rows += new
+    print(f"{count} discs from seed {seed} on, told over found: {spread(rows).replace(' |', ',')} between 1 and 10")
+    return bool(rows) and ratios(rows).min() >= 1.0
+
+
 def measure(programs, folder, quick, keep):
     """Rows so far are kept after each mesh."""
     brakes = list(BRAKES)[:2] if quick else list(BRAKES)
@@ -201,8 +236,16 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build/release/bin")
-    parser.add_argument("output", type=pathlib.Path)
+    parser.add_argument("--random", type=int, default=0, metavar="COUNT")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("output", type=pathlib.Path, nargs="?")
     wanted = parser.parse_args()
+    if wanted.random > 0:
+        with tempfile.TemporaryDirectory() as name:
+            holds = try_random(wanted.programs.resolve(), pathlib.Path(name), wanted.random, wanted.seed)
+        sys.exit(0 if holds else "told_errors.py: FAILED: an error told is less than what a finer mesh finds")
+    if wanted.output is None:
+        parser.error("where shall the page go? Name OUTPUT")
     wanted.output.mkdir(parents=True, exist_ok=True)
 
     def keep(result):
