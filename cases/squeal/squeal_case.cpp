@@ -183,6 +183,18 @@ std::optional<std::string> note_of_asymmetry(const squeal::FlexibleDisc& brake)
       squeal::asymmetry(brake.disc()).value_or("as it is"));
 }
 
+/// Modes that count as pure harmonics, as far as their errors let them be.
+std::optional<std::string> note_of_impurity(const squeal::FlexibleDisc& brake)
+{
+  if (!brake.is_autonomous()) return std::nullopt;
+  const squeal::InertialDisc& disc = brake.inertial();
+  if (!(disc.explained_impurity > squeal::impurity_limit)) return std::nullopt;
+  return fmt::format(
+      "mode shapes differ from pure harmonics by up to {:.2g}, which the errors of their "
+      "frequencies explain; the disc is taken as axisymmetric",
+      disc.explained_impurity);
+}
+
 /// What the mean over the circumference takes from pairs whose modes decay differently.
 std::optional<std::string> note_of_damping(const squeal::FlexibleDisc& brake)
 {
@@ -213,9 +225,9 @@ SquealCase squeal_case(const scene::Scene& scene, const std::optional<mbs_export
   std::vector<std::string> notes = squeal::notes_of(disc);
   auto brake = std::make_unique<squeal::FlexibleDisc>(std::move(disc), options,
                                                       complete_disc(*body, options));
-  for (const auto& note :
-       {note_of_damping(*brake), note_of_points(*brake), note_of_asymmetry(*brake),
-        squeal::note_of_lacking_errors(brake->disc(), *body, options.modes)})
+  for (const auto& note : {note_of_damping(*brake), note_of_impurity(*brake),
+                           note_of_points(*brake), note_of_asymmetry(*brake),
+                           squeal::note_of_lacking_errors(brake->disc(), *body, options.modes)})
     if (note) notes.push_back(*note);
   add_note_of_stiffening({&*body, 1}, notes);
   return {.brake = std::move(brake), .notes = std::move(notes)};

@@ -214,6 +214,16 @@ double put(InertialDisc& inertial, const RingHarmonics& harmonics, const PureMod
   return std::sqrt(std::max(0.0, whole - pure) / whole);
 }
 
+/// The error of a mode's shape that the errors of its frequency tell: in the norm of the energy it
+/// is the root of that of lambda, 2 e, as for all Ritz vectors.
+double shape_error(const ModeErrors& errors, const Eigen::VectorXcd& e)
+{
+  double of_frequency = 0.0;
+  for (const Eigen::VectorXd* part : {&errors.mesh, &errors.reduction})
+    if (part->size() > 0) of_frequency += e.cwiseAbs2().dot(*part);
+  return std::sqrt(2.0 * of_frequency);
+}
+
 /// Twice the part of each frequency that is not the same in every position of the disc, relative:
 /// for a pair alone the distance of its two frequencies.
 double largest_split(const Disc& disc, const std::vector<HarmonicSpace>& spaces)
@@ -263,7 +273,9 @@ std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
   for (const PureModes& mode : pure_modes(disc, spaces)) {
     const double impurity =
         put(inertial, harmonics, mode, at) / (mode.omega > disc.range ? beyond_range : 1.0);
-    inertial.largest_impurity = std::max(inertial.largest_impurity, impurity);
+    double& largest = impurity < shape_error(disc.errors, mode.e) ? inertial.explained_impurity
+                                                                  : inertial.largest_impurity;
+    largest = std::max(largest, impurity);
     const Eigen::Index size = mode.n == 0 ? 1 : 2;
     put_error(inertial.errors.mesh, disc.errors.mesh, mode.e, at, size);
     for (Eigen::Index row = 0; row < disc.errors.mesh_shapes.rows(); ++row) {

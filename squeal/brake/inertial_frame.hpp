@@ -42,6 +42,9 @@ struct InertialDisc {
   Eigen::MatrixXd R;        ///< orthogonal, with q = R a when the two frames coincide
   double largest_split;     ///< largest relative frequency difference within a pair
   double largest_impurity;  ///< largest relative impurity of the mode shapes; see impurity_limit
+  /// The same of modes whose errors of the mesh and the reduction tell as much of their shapes:
+  /// modes of an irregular mesh whose frequencies are near one another mix.
+  double explained_impurity = 0.0;
   /// Largest difference of the decay rates within a pair, 1/s, which the mean over the
   /// circumference removes.
   double damping_spread = 0.0;
@@ -53,8 +56,8 @@ struct InertialDisc {
 };
 
 /// Largest allowed deviation of a mode shape from a pure harmonic, relative to its amplitude on the
-/// ring. A mesh without rotational symmetry causes 1e-6 to 1e-3, a disc with vanes or slots much
-/// more.
+/// ring, where the mode's own errors do not explain it. A mesh without rotational symmetry causes
+/// 1e-6 to 1e-3, a disc with vanes or slots much more.
 inline constexpr double impurity_limit = 0.02;
 
 /// Factor by which split and impurity of modes beyond Disc::range, whose frequencies are not those

@@ -135,6 +135,24 @@ TEST(InertialDisc, SaysByHowMuchADiscIsNotAxisymmetric)
   EXPECT_FALSE(find_inertial_disc(disc_of({split})));
 }
 
+TEST(InertialDisc, TakesShapesAsPureThatAreAsUncertainAsTheyAreImpure)
+{
+  auto body = analytic_body({kirchhoff_3()});
+  body.rings[0].W.col(0) *= 1.3;
+  const auto with_errors_of = [&](double error) {
+    body.certificate = {.fixed = body.fixed,
+                        .frequencies = body.omega,
+                        .estimates = Eigen::Vector2d::Constant(error)};
+    return disc_on_ring(body, "track", {});
+  };
+  // The root of twice the error: 0.1 and 0.032.
+  const InertialDisc disc = inertial_disc(with_errors_of(5e-3));
+  EXPECT_NEAR(disc.explained_impurity, 0.038, 1e-3);
+  EXPECT_EQ(disc.largest_impurity, 0.0);
+  EXPECT_NE(complaint(with_errors_of(5e-4)).find("differ from pure harmonics by 0.0"),
+            std::string::npos);
+}
+
 TEST(InertialDisc, NeedsBothModesOfAPair)
 {
   const auto body = analytic_body({kirchhoff_2(), kirchhoff_3()});
