@@ -81,6 +81,12 @@ MatrixXd pseudo_inverse(const MatrixXd& K_G, Eigen::Index r)
   for (PetscInt j = 0; j < n; ++j)
     for (PetscInt i = 0; i < n; ++i) scaled(i, j) *= scale[i] * scale[j];
   const linear::SymmetricEigen eigen = linear::symmetric_eigen(std::move(scaled));
+  if (r < n && !(eigen.values[std::size_t(r)] > 0.0)) {
+    throw Error(
+        fmt::format("K has no digits between the masters: the energy of a motion that it resists "
+                    "is round-off, {:.1e} of that of its rows; name other masters, or more digits",
+                    eigen.values[std::size_t(r)]));
+  }
   MatrixXd V = MatrixXd::Zero(n, n - r);  // of the others, times lambda^(-1/2)
   for (Eigen::Index k = r; k < n; ++k)
     for (PetscInt i = 0; i < n; ++i)

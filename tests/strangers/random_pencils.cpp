@@ -234,7 +234,8 @@ Reduction draw_reduction(Dice& dice, const Reference& exact)
             .up_to_Hz =
                 in_Hz(exact.whole.lambda[dice.integer(n_rigid, n - 1)] * dice.uniform(0.9, 1.5))};
   }
-  return {.type = CMSRUBIN, .modes = dice.integer(1, few)};
+  if (n <= exact.n_free_rigid) return {.type = CMSGUYAN};  // these are modes of the free body
+  return {.type = CMSRUBIN, .modes = dice.integer(1, std::min(few, n - exact.n_free_rigid))};
 }
 
 std::string words_of(const Reduction& how)
