@@ -574,6 +574,110 @@ std::optional<Diameters> diameters_on(const DiscRing& ring, Eigen::Index mode, d
   return Diameters{.seen = seen, .told = told_by_slope(seen, ring.n_nodes, slope)};
 }
 
+/// Parts of equal width of the radius; fewer where the picture has few points.
+constexpr int parts_max = 16;
+/// A part is looked at when it has so many points for each coefficient.
+constexpr int points_per_coefficient = 4;
+/// Amplitudes below this part of the largest one have no sign.
+constexpr double still = 0.05;
+/// Points of a picture by their distance from the axis.
+struct Parts {
+  std::vector<std::vector<Index>> points;
+};
+
+Parts parts_of(const mbs_export::Picture& picture, int diameters)
+{
+  if (picture.positions.rows() == 0) return {};
+  const Eigen::VectorXd r = picture.positions.leftCols<2>().rowwise().norm();
+  const double from = r.minCoeff(), to = r.maxCoeff();
+  const auto needed = Index{points_per_coefficient} * (2 * diameters + 1);
+  const auto n = std::clamp<Index>(r.size() / needed, 1, parts_max);
+  Parts parts{std::vector<std::vector<Index>>(static_cast<std::size_t>(n))};
+  for (Index i = 0; i < r.size(); ++i) {
+    const auto at = static_cast<Index>((r[i] - from) / (to - from) * double(n));
+    parts.points[static_cast<std::size_t>(std::clamp<Index>(at, 0, n - 1))].push_back(i);
+  }
+  std::erase_if(parts.points, [&](const auto& of) { return std::ssize(of) < 2 * diameters + 1; });
+  return parts;
+}
+
+/// (a, b) of u_z = a cos(d theta) + b sin(d theta) by least squares over the points of a part.
+Eigen::Vector2d amplitude(const mbs_export::Picture& picture, const std::vector<Index>& points,
+                          Index mode, int d)
+{
+  Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();
+  for (const Index i : points) {
+    const double theta = d * std::atan2(picture.positions(i, 1), picture.positions(i, 0));
+    const Eigen::Vector2d wave{std::cos(theta), std::sin(theta)};
+    A += wave * wave.transpose();
+    right += picture.transformation(3 * i + 2, mode) * wave;
+  }
+  if (d == 0) return {right[0] / A(0, 0), 0.0};
+  return linear::least_squares(A, right);
+}
+
+/// The points of a picture at the height of a ring, with the motion of a mode.
+mbs_export::Picture plane_of(const mbs_export::Picture& picture, Index mode, const DiscRing& ring)
+{
+  std::vector<Index> points;
+  for (Index i = 0; i < picture.positions.rows(); ++i)
+    if (std::abs(picture.positions(i, 2) - ring.height) < 1e-3 * ring.radius) points.push_back(i);
+  mbs_export::Picture plane{.positions = picture.positions(points, every),
+                            .cells = {},
+                            .transformation = Eigen::MatrixXd(3 * std::ssize(points), 1)};
+  for (Index i = 0; i < std::ssize(points); ++i) {
+    plane.transformation.block<3, 1>(3 * i, 0) =
+        picture.transformation.block<3, 1>(3 * points[static_cast<std::size_t>(i)], mode);
+  }
+  return plane;
+}
+
+/// How much of the squared motion along the axis is that of harmonic d, over all points.
+double share_of(const mbs_export::Picture& picture, int d)
+{
+  double explained = 0.0, all = 0.0;
+  for (const std::vector<Index>& points : parts_of(picture, d).points) {
+    const Eigen::Vector2d a = amplitude(picture, points, 0, d);
+    for (const Index i : points) {
+      const double theta = d * std::atan2(picture.positions(i, 1), picture.positions(i, 0));
+      const double u = picture.transformation(3 * i + 2, 0);
+      const double rest = u - a[0] * std::cos(theta) - a[1] * std::sin(theta);
+      explained += u * u - rest * rest;
+      all += u * u;
+    }
+  }
+  return all > 0.0 ? explained / all : 0.0;
+}
+
+/// The number among `seen` + m N whose harmonic has most of the motion of the mesh at the height of
+/// the ring, for nodes that have no slope of their own, as those of solids.
+int told_by_picture(const mbs_export::Picture& plane, int seen, int n_nodes)
+{
+  constexpr double clearly = 1.5;
+  int told = seen;
+  double most = clearly * share_of(plane, seen);
+  for (const int d : {n_nodes - seen, n_nodes + seen, 2 * n_nodes - seen}) {
+    const double share = d == seen ? 0.0 : share_of(plane, d);
+    if (share <= most) continue;
+    most = share;
+    told = d;
+  }
+  return told;
+}
+
+/// Whether the nodes of a ring rotate by themselves.
+bool has_slopes(const ModalBody& body, const std::string& ring)
+{
+  const auto at = std::ranges::find(body.rings, ring, &mbs_export::ContactRing::name);
+  return at == body.rings.end() || at->W_r.norm() + at->W_t.norm() > 0.0;
+}
+
+bool has_picture(const ModalBody& body)
+{
+  return body.picture.positions.rows() > 0 && body.picture.transformation.cols() == body.n_modes();
+}
+
 /// A vibration of the disc in the band, not what stands for others.
 /// @param end  of the band, rad/s
 bool is_in_band(const ModalBody& body, int i, double end)
@@ -589,11 +693,17 @@ std::map<int, Diameters> diameters_in_band(const Disc& disc, const DiscRing& rin
       (ring.W.cosine.cwiseAbs2() + ring.W.sine.cwiseAbs2()).colwise().sum().transpose();
   const double limit = still_limit * still_limit * (motion.size() > 0 ? motion.maxCoeff() : 0.0);
   const double end = std::min(range_of(body), end_of_known(disc, body));
+  const bool looks_at_picture = !has_slopes(body, ring.name) && has_picture(body);
   std::map<int, Diameters> found;
   for (std::size_t column = 0; column < disc.mode_numbers.size(); ++column) {
     const int i = disc.mode_numbers[column] - 1;
-    const auto diameters = diameters_on(ring, Eigen::Index(column), limit);
-    if (diameters && is_in_band(body, i, end)) found.emplace(i, *diameters);
+    auto diameters = diameters_on(ring, Eigen::Index(column), limit);
+    if (!diameters || !is_in_band(body, i, end)) continue;
+    if (looks_at_picture) {
+      diameters->told =
+          told_by_picture(plane_of(body.picture, i, ring), diameters->seen, ring.n_nodes);
+    }
+    found.emplace(i, *diameters);
   }
   for (const int number : disc.alternating)
     if (ring.n_nodes % 2 == 0 && is_in_band(body, number - 1, end))
@@ -660,12 +770,6 @@ ModeParts mode_parts(const Disc& disc, const ModalBody& body, const ModeChoice& 
 
 namespace {
 
-/// Parts of equal width of the radius; fewer where the picture has few points.
-constexpr int parts_max = 16;
-/// A part is looked at when it has so many points for each coefficient.
-constexpr int points_per_coefficient = 4;
-/// Amplitudes below this part of the largest one have no sign.
-constexpr double still = 0.05;
 /// Of motion in the plane, from which on nodal circles of the other one say nothing.
 constexpr double mostly_in_plane = 0.5;
 
@@ -675,42 +779,6 @@ std::optional<double> in_plane_of(const mbs_export::ModalBody& body, Index mode)
   const auto& S = body.mass_integrals->products;
   const double plane = S[0](mode, mode) + S[1](mode, mode), axis = S[2](mode, mode);
   return plane + axis > 0.0 ? std::optional(plane / (plane + axis)) : std::nullopt;
-}
-
-/// Points of a picture by their distance from the axis.
-struct Parts {
-  std::vector<std::vector<Index>> points;
-};
-
-Parts parts_of(const mbs_export::Picture& picture, int diameters)
-{
-  const Eigen::VectorXd r = picture.positions.leftCols<2>().rowwise().norm();
-  const double from = r.minCoeff(), to = r.maxCoeff();
-  const auto needed = Index{points_per_coefficient} * (2 * diameters + 1);
-  const auto n = std::clamp<Index>(r.size() / needed, 1, parts_max);
-  Parts parts{std::vector<std::vector<Index>>(static_cast<std::size_t>(n))};
-  for (Index i = 0; i < r.size(); ++i) {
-    const auto at = static_cast<Index>((r[i] - from) / (to - from) * double(n));
-    parts.points[static_cast<std::size_t>(std::clamp<Index>(at, 0, n - 1))].push_back(i);
-  }
-  std::erase_if(parts.points, [&](const auto& of) { return std::ssize(of) < 2 * diameters + 1; });
-  return parts;
-}
-
-/// (a, b) of u_z = a cos(d theta) + b sin(d theta) by least squares over the points of a part.
-Eigen::Vector2d amplitude(const mbs_export::Picture& picture, const std::vector<Index>& points,
-                          Index mode, int d)
-{
-  Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  for (const Index i : points) {
-    const double theta = d * std::atan2(picture.positions(i, 1), picture.positions(i, 0));
-    const Eigen::Vector2d wave{std::cos(theta), std::sin(theta)};
-    A += wave * wave.transpose();
-    right += picture.transformation(3 * i + 2, mode) * wave;
-  }
-  if (d == 0) return {right[0] / A(0, 0), 0.0};
-  return linear::least_squares(A, right);
 }
 
 int circles_of(const mbs_export::Picture& picture, Index mode, int diameters)
@@ -737,12 +805,11 @@ int circles_of(const mbs_export::Picture& picture, Index mode, int diameters)
 std::vector<ModeFigure> mode_figures(const mbs_export::ModalBody& body,
                                      const std::vector<int>& diameters)
 {
-  const bool has_picture =
-      body.picture.positions.rows() > 0 && body.picture.transformation.cols() == body.n_modes();
+  const bool is_drawn = has_picture(body);
   std::vector<ModeFigure> figures;
   for (Index i = 0; i < body.n_modes(); ++i) {
     ModeFigure figure{.in_plane = in_plane_of(body, i)};
-    if (has_picture && figure.in_plane.value_or(0.0) < mostly_in_plane)
+    if (is_drawn && figure.in_plane.value_or(0.0) < mostly_in_plane)
       figure.circles = circles_of(body.picture, i, diameters[static_cast<std::size_t>(i)]);
     figures.push_back(figure);
   }

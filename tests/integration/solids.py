@@ -204,6 +204,18 @@ def example(programs, folder):
         yield f"examples/solid_disc: critical frequency {critical}"
 
 
+def few_ring_nodes(programs, folder):
+    """Nodes without rotations do not tell 5 diameters from 3 on a ring of 8; the rest of the mesh does."""
+    scene = (Path(__file__).parents[2] / "examples/solid_disc/scene.toml").read_text()
+    for old, new in (("nodes = 30", "nodes = 8"), ("use_modes =", "# use_modes ="), ("modes = 40", "modes = 24")):
+        scene = scene.replace(old, new)
+    (folder / "few.toml").write_text(scene)
+    run(programs / "chladni", "run", folder / "few.toml", "--output", folder, "--overwrite")
+    said = run(programs / "squeal", "run", folder / "few.toml", "--output", folder, "--overwrite", code=1)
+    if "of 5 nodal diameters looks like one of 3" not in said or "or more" not in said:
+        yield f"a ring of 8 nodes: {said!r}"
+
+
 def failures(programs, mpirun, folder):
     yield from annulus(programs, folder, 6e-4, 0.0209, 3, 1)
     yield from annulus(programs, folder, 6e-4, 0.0209, 3, 1, exact=IN_PLANE)
@@ -215,6 +227,7 @@ def failures(programs, mpirun, folder):
     yield from refusals(programs, folder)
     yield from no_volume(programs, folder)
     yield from example(programs, folder)
+    yield from few_ring_nodes(programs, folder)
 
 
 if __name__ == "__main__":
