@@ -249,7 +249,8 @@ def main():
     wanted.output.mkdir(parents=True, exist_ok=True)
 
     def keep(result):
-        (wanted.output / "told_errors.json").write_text(json.dumps(result, indent=1) + "\n")
+        rows = ",\n".join(json.dumps(row) for row in result["rows"])
+        (wanted.output / "told_errors.json").write_text(f'{{"rows": [\n{rows}\n]}}\n')
         (wanted.output / "told_errors.md").write_text(page(result))
 
     with tempfile.TemporaryDirectory() as name:
