@@ -64,6 +64,12 @@ struct ResponseChoice {
   std::string length_unit;     ///< unit of length if the measurement does not state one
 };
 
+/// Further arguments of `chladni compare`.
+struct CompareChoice {
+  int n_frequencies = 20;                          ///< of the supported body, compared
+  std::vector<int> modes = {10, 20, 40, 80, 160};  ///< numbers of modes that are tried
+};
+
 /// Arguments of `chladni mac`.
 struct MacArguments {
   std::string body;         ///< *.body.h5
@@ -81,6 +87,7 @@ struct ChladniArguments {
   QualityChoice mesh;
   SoundChoice sound;
   ResponseChoice response;
+  CompareChoice compare;
   MacArguments mac;
   std::string info_file;
   std::string check_file;
@@ -120,6 +127,10 @@ void body_command(const ChladniArguments& arguments);
 
 /// Performs `reduce` and `body`; writes both files.
 void run_command(const ChladniArguments& arguments);
+
+/// Reduces the scene by every method with several numbers of modes and compares the frequencies
+/// with those of the FE model: error against time and size; writes NAME.compare.svg.
+void compare_command(const ChladniArguments& arguments);
 
 /// Computes the sound of the limit cycle in NAME.squeal.h5 and the effect of radiation damping on
 /// the squeal: NAME.sound.h5, NAME.sound.vtu, NAME.radiation.h5 and, if asked for, NAME.sound.wav.
@@ -162,6 +173,9 @@ void declare_length_unit(CLI::App& app, std::string& unit);
 
 /// The subcommand `mac`.
 void declare_mac(CLI::App& app, MacArguments& arguments);
+
+/// The options of `compare` besides those of all commands on scenes.
+void declare_compare(CLI::App& compare, CompareChoice& choice);
 
 /// The options of `response` besides those of all commands on scenes.
 void declare_response(CLI::App& response, ResponseChoice& choice);

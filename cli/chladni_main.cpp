@@ -53,6 +53,10 @@ constexpr Subcommand on_scenes[] = {
      "Examples:\n  chladni reduce scene.toml --output out\n"
      "  mpirun -n 2 chladni reduce scene.toml -- -log_view",
      chladni::cli::reduce_command},
+    {"compare",
+     "tries the methods of reduction on the scene: error against time and size: NAME.compare.svg",
+     "Example:\n  chladni compare scene.toml --modes 20,50,100 --frequencies 30 --output out",
+     chladni::cli::compare_command},
     {"body", "makes the modal body of NAME.reduced.h5: NAME.body.h5",
      "Example (after a change of [body] in the scene):\n  chladni body scene.toml --output out",
      chladni::cli::body_command},
@@ -157,7 +161,7 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
     chladni::cli::declare_scene_arguments(*declared, arguments.scene);
     declared->footer(subcommand.examples);
   }
-  for (const char* meshes : {"mesh", "static", "modes", "response", "reduce", "run"}) {
+  for (const char* meshes : {"mesh", "static", "modes", "response", "reduce", "run", "compare"}) {
     app.get_subcommand(meshes)->add_flag(
         "--trust-mesh", arguments.trusts_mesh,
         "the mesh file is your own: a .geo may run programs and write files, without a time limit");
@@ -172,6 +176,7 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
       ".med or a deck");
   chladni::cli::declare_length_unit(*app.get_subcommand("mesh"), arguments.mesh.length_unit);
   chladni::cli::declare_response(*app.get_subcommand("response"), arguments.response);
+  chladni::cli::declare_compare(*app.get_subcommand("compare"), arguments.compare);
   for (const char* reader : {"body", "response", "sound"})
     chladni::cli::declare_stale(*app.get_subcommand(reader), arguments.scene.stale);
   app.get_subcommand("sound")->add_flag("--radiation", arguments.sound.radiation_only,

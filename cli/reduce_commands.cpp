@@ -1,10 +1,16 @@
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
+#include <filesystem>
+#include <numbers>
+
+#include "cases/compare_reductions.hpp"
 #include "cases/describe_reduction.hpp"
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
 #include "common/error.hpp"
+#include "common/files/output_file.hpp"
 #include "mbs_export/files/body_files.hpp"
 #include "report/describe_body.hpp"
 #include "report/json.hpp"
@@ -151,6 +157,60 @@ void run_command(const ChladniArguments& arguments)
     fmt::print("\nwrote {}\nwrote {}\n", reduced_file(scene, said).string(),
                body_file(scene, said).string());
   });
+}
+
+namespace {
+
+void print_comparison(const SceneArguments& arguments, const scene::Scene& scene,
+                      const cases::ReductionComparison& found)
+{
+  fmt::print(
+      "{}\n\n{} DOFs; the first {} elastic frequencies under the supports of the body, {:.5g} to "
+      "{:.5g} Hz, by the FE model in {:.3f} CPU s\n\n{}",
+      report::printable(scene.title), found.n_dofs, found.omega.size(),
+      found.omega[0] / (2.0 * std::numbers::pi),
+      found.omega[found.omega.size() - 1] / (2.0 * std::numbers::pi), found.modes_cpu_s,
+      report::format_table(cases::comparison_table(found)));
+  for (const cases::ComparedReduction& row : found.reductions)
+    if (!row.refusal.empty())
+      fmt::print("{} with {}: {}\n", row.method, row.asked, report::printable(row.refusal));
+  write_summary(arguments, cases::comparison_json(found), report::cost_so_far({}));
+}
+
+}  // namespace
+
+void compare_command(const ChladniArguments& arguments)
+{
+  const scene::Scene scene = read_scene_to_mesh(arguments);
+  const std::filesystem::path file =
+      std::filesystem::path(arguments.scene.output) / (scene.name + ".compare.svg");
+  const ReservedOutputs reserved = reserve_on_first_rank(arguments.scene, {file});
+  cases::ReduceProgress bar =
+      progress_bar({{"mesh", 5.0}, {"assembly", 5.0}, {"modes", 10.0}, {"reductions", 80.0}});
+  const cases::ReductionComparison found = cases::compare_reductions(
+      scene, {.n_frequencies = arguments.compare.n_frequencies, .modes = arguments.compare.modes},
+      arguments.solver, bar);
+  bar = {};
+  cases::on_first_rank([&] {
+    files::write_text(file, cases::comparison_picture(found) + writer_mark(arguments.scene));
+    print_comparison(arguments.scene, scene, found);
+    fmt::print("\nwrote {}\n", file.string());
+  });
+}
+
+void declare_compare(CLI::App& compare, CompareChoice& choice)
+{
+  compare.add_option("--modes", choice.modes, "numbers of modes that each method is tried with")
+      ->type_name("N")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  compare
+      .add_option("--frequencies", choice.n_frequencies,
+                  "number of elastic frequencies, of the supported body, that are compared")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
 }
 
 }  // namespace chladni::cli

@@ -9,6 +9,8 @@
 
 #include "common/petsc.hpp"
 #include "linear/kernels/forms.hpp"
+#include "linear/kernels/gather.hpp"
+#include "linear/kernels/orthonormalisation.hpp"
 #include "linear/kernels/small_matrices.hpp"
 
 namespace chladni::reduce {
@@ -17,24 +19,35 @@ using Eigen::MatrixXd;
 
 namespace {
 
-/// Rows of masters without mass hold the round-off of their terms, which may be negative: they are
-/// zero.
+/// Rows of masters without mass hold the round-off of their terms, which may be negative: they
+/// become zero.
+void clear_round_off(MatrixXd& M_G, const MatrixXd& M_mm, Mat Psi, const Blocks& M)
+{
+  constexpr double suspicious = 1e-10, round_off = 64.0 * std::numeric_limits<double>::epsilon();
+  if (M_G.rows() == 0) return;
+  const double least = (M_G.diagonal().array() / M_mm.diagonal().array().max(1e-300)).minCoeff();
+  const double of_largest = M_G.diagonal().minCoeff() / M_G.diagonal().maxCoeff();
+  const bool is_clear = least > suspicious && of_largest > suspicious;
+  if (linear::value_of_first_rank(is_clear ? 1.0 : 0.0, petsc::communicator(Psi)) == 1.0) return;
+  const std::vector<double> of_slaves = linear::diagonal_terms(Psi, M.ss);
+  for (Eigen::Index i = 0; i < M_G.rows(); ++i) {
+    const double terms = M_mm(i, i) + of_slaves[std::size_t(i)];
+    if (std::abs(M_G(i, i)) > round_off * terms) continue;
+    M_G.row(i).setZero();
+    M_G.col(i).setZero();
+  }
+}
+
 /// @param Psi_M_Psi  Psi^T M_ss Psi
 MatrixXd guyan_mass(Mat Psi, const Blocks& M, const MatrixXd& Psi_M_Psi)
 {
-  constexpr double round_off = 64.0 * std::numeric_limits<double>::epsilon();
   const MatrixXd M_mm = linear::replicate(M.mm), Psi_M_sm = linear::inner_product_sparse(Psi, M.sm);
   MatrixXd M_G(M_mm.rows(), M_mm.cols());
   M_G.triangularView<Eigen::Upper>() =
       0.5 * (M_mm + M_mm.transpose()) + Psi_M_sm + Psi_M_sm.transpose() + Psi_M_Psi;
-  for (Eigen::Index i = 0; i < M_G.rows(); ++i) {
-    const double largest =
-        std::max({std::abs(M_mm(i, i)), std::abs(Psi_M_sm(i, i)), std::abs(Psi_M_Psi(i, i))});
-    if (std::abs(M_G(i, i)) > round_off * largest) continue;
-    M_G.row(i).setZero();
-    M_G.col(i).setZero();
-  }
-  return M_G.selfadjointView<Eigen::Upper>();
+  M_G = MatrixXd(M_G.selfadjointView<Eigen::Upper>());
+  clear_round_off(M_G, M_mm, Psi, M);
+  return M_G;
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
-"""What the certificate of a coarse disc claims, against a reduction that is much finer and against the FE model itself.
+"""What the certificate of a coarse disc claims, against a reduction that is much finer and against the FE model itself; and
+`chladni compare`.
 
 Usage: certificate.py PROGRAM_DIR
 """
 
 import sys
 import tempfile
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import h5py
@@ -78,6 +80,32 @@ def uncertified_is_said(programs):
     return said == [False, True]
 
 
+def comparison(programs):
+    """`chladni compare`: the FE model's own frequencies; what each method can; and one that cannot stops no other."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        support = '[[support]]\ngroup = "hub"\ntype = "clamped"\n[modes]\ncount = 12\n'
+        (folder / "scene.toml").write_text(SCENE + support)
+        full = frequencies(programs, "modes", folder)
+        words = ("scene.toml", "--output", folder, "--modes", "12,60,900000", "--frequencies", "12")
+        found = summary(programs / "chladni", "compare", folder / words[0], *words[1:])
+        rows = {(row["method"], row["asked"]): row for row in found["reductions"]}
+        picture = ElementTree.parse(next(folder.glob("*.compare.svg")))
+    yield "compare has the frequencies of the FE model", bool(np.all(np.abs(np.array(found["frequencies_Hz"]) / full - 1) < 1e-9))
+    own = rows["mixed-interface", "12 modes"]
+    yield "modes of the supported body itself are exact", own["error"] < 1e-9 and own["is_best_in_size"]
+    for method, few, many in (("craig-bampton", 0.1, 2e-3), ("rubin", 2e-2, 1e-4)):
+        errors = [rows[method, f"{n} modes"]["error"] for n in (12, 60)]
+        yield f"{method} by 12 and 60 modes: {errors}", errors[0] > 10 * errors[1] and errors[0] < few and errors[1] < many
+    for asked in (1e-2, 1e-3, 1e-4):
+        row = rows["craig-bampton", f"tolerance {asked:g}"]
+        yield f"tolerance {asked:g}: {row['error']:.1e}, told {row['told']:.1e}", row["error"] < 1.1 * asked and 0.5 < row["told"] / row["error"] < 2
+    refused = [row for row in found["reductions"] if row["refusal"]]
+    yield "900000 modes are refused, by each method", len(refused) == 3 and "slaves" in refused[0]["refusal"]
+    circles = [element for element in picture.iter() if element.tag.endswith("circle")]
+    yield f"{len(circles)} points in the picture", len(circles) == 2 * (len(rows) - 3) + 5
+
+
 SUPPORTS = (
     ('["hub"]', '[[support]]\ngroup = "hub"\ntype = "clamped"\n'),
     ('["hub.x", "hub.y", "hub.z"]', '[[support]]\ngroup = "hub"\ntype = "simply-supported"\n'),
@@ -105,6 +133,7 @@ def main(programs):
     print("errors", errors, "\nbounds", coarse["bounds"])
     checks["a partner beyond the number asked for is said"] = partner_is_said(programs)
     checks["modes kept beyond the certified range are said"] = uncertified_is_said(programs)
+    checks.update(comparison(programs))
     for fixed, support in SUPPORTS:
         checks.update(held_directly(programs, fixed, support))
     for claim, holds in checks.items():

@@ -282,6 +282,9 @@ Draw draw(std::uint64_t seed)
   drawn.how = draw_reduction(dice, drawn.exact);
   drawn.how.is_shuffled = dice.chance(0.2);
   drawn.pencil.refusal = spoil(dice, drawn.pencil);
+  // What was added may have moved the first mode above the cut-off, which is told first.
+  if (drawn.how.cutoff_Hz > 0.0 && !drawn.pencil.refusal.empty())
+    drawn.pencil.refusal += "|raise cutoff_Hz";
   drawn.words += "; " + words_of(drawn.how) + (drawn.how.is_shuffled ? ", shuffled" : "");
   if (!drawn.pencil.refusal.empty()) drawn.words += ", to be refused: " + drawn.pencil.refusal;
   return drawn;
