@@ -72,6 +72,9 @@ void check_modes(const Reference& exact, const Answer& answer, Failures& failure
   for (std::size_t i = 0; i < lambda.size(); ++i) {
     const double error = std::abs(lambda[i] - exact.held.lambda[i]);
     if (error <= accuracy * exact.held.lambda[i] + rounding_of_solver(exact.held, i)) continue;
+    // Of forty within a hundred-thousandth a few may be found before the lowest, if that is said.
+    constexpr double cluster = 1e-4;
+    if (answer.quality.modes.missing > 0 && error < cluster * exact.held.lambda[i]) continue;
     failures.push_back(
         {"other-modes", fmt::format("mode {} of {}: {:.10g} instead of {:.10g}", i, lambda.size(),
                                     lambda[i], exact.held.lambda[i])});
