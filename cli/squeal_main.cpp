@@ -14,6 +14,7 @@
 #include "report/page/pages.hpp"
 #include "report/progress.hpp"
 #include "report/text_table.hpp"
+#include "report/timing.hpp"
 #include "report/version.hpp"
 #include "scene/keys.hpp"
 
@@ -60,6 +61,7 @@ void declare_info(CLI::App& app, SquealArguments& arguments)
 
 int main(int argc, char** argv)
 {
+  chladni::report::keep_freed_memory();
   SquealArguments arguments;
   CLI::App app("Brake squeal of a modal body: stability, growth, transients and limit cycles.",
                "squeal");

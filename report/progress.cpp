@@ -43,16 +43,35 @@ double WholeProgress::at(const std::string& phase, double fraction)
   return done_;
 }
 
+namespace {
+
+/// ", 7 s left", or nothing where that cannot be known yet.
+std::string time_left(double done, double elapsed_s)
+{
+  constexpr double shortest_worth_telling_s = 2.0, least_to_go_by = 0.02;
+  if (elapsed_s < shortest_worth_telling_s || done < least_to_go_by) return "";
+  return fmt::format(", {:.0f} s left", std::ceil(elapsed_s * (1.0 - done) / done));
+}
+
+}  // namespace
+
 std::string progress_text(std::string_view phase, double whole, double elapsed_s)
 {
   constexpr int width = 20;
-  constexpr double shortest_worth_telling_s = 2.0, least_to_go_by = 0.02;
   const double done = std::clamp(whole, 0.0, 1.0);
   const int n = static_cast<int>(width * done);
-  std::string text = fmt::format("[{}{}] {:3.0f} %  {}", std::string(n, '#'),
-                                 std::string(width - n, '-'), std::floor(100.0 * done), phase);
-  if (elapsed_s < shortest_worth_telling_s || done < least_to_go_by) return text;
-  return text + fmt::format(", {:.0f} s left", std::ceil(elapsed_s * (1.0 - done) / done));
+  return fmt::format("[{}{}] {:3.0f} %  {}{}", std::string(n, '#'), std::string(width - n, '-'),
+                     std::floor(100.0 * done), phase, time_left(done, elapsed_s));
+}
+
+std::optional<std::string> ProgressLog::line(std::string_view phase, double whole, double elapsed_s)
+{
+  constexpr double rarest_s = 60.0;
+  if (elapsed_s < next_s_) return std::nullopt;
+  next_s_ = elapsed_s + std::min(elapsed_s, rarest_s);
+  const double done = std::clamp(whole, 0.0, 1.0);
+  return fmt::format("{:.0f} s: {:.0f} %  {}{}", elapsed_s, std::floor(100.0 * done), phase,
+                     time_left(done, elapsed_s));
 }
 
 void be_quiet()
@@ -78,11 +97,9 @@ void ProgressLine::wipe()
   visible_ = false;
 }
 
-void ProgressLine::show(const std::string& phase, double whole)
+void ProgressLine::draw(const std::string& phase, double whole, Clock::time_point now)
 {
-  if (is_quiet || ::isatty(STDERR_FILENO) == 0) return;
   constexpr std::chrono::milliseconds pause{200};
-  const Clock::time_point now = Clock::now();
   // The name of a phase at once: a factorisation says nothing until it is done.
   if (phase == phase_ && now - shown_ < pause && whole < 1.0) return;
   phase_ = phase;
@@ -91,6 +108,15 @@ void ProgressLine::show(const std::string& phase, double whole)
   fmt::print(stderr, "\r\033[K{}", progress_text(phase, whole, elapsed_s));
   std::fflush(stderr);
   visible_ = true;
+}
+
+void ProgressLine::show(const std::string& phase, double whole)
+{
+  if (is_quiet) return;
+  const Clock::time_point now = Clock::now();
+  if (::isatty(STDERR_FILENO) != 0) return draw(phase, whole, now);
+  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+  if (const auto line = log_.line(phase, whole, elapsed_s)) fmt::print(stderr, "{}\n", *line);
 }
 
 Cost cost_so_far(std::vector<PhaseTime> phases)

@@ -55,8 +55,21 @@ void be_quiet();
 /// Prints "note: ..." on stderr. On a terminal it replaces a progress line.
 void tell_note(std::string_view note);
 
-/// A line on stderr that shows the progress of a run. It appears only when stderr is a terminal and
-/// be_quiet was not called, and is wiped by the destructor.
+/// What a log is told of the progress: a line of its own after ten seconds, and then ever more
+/// rarely, as often as the time has doubled, but each minute.
+class ProgressLog {
+ public:
+  /// @param whole      fraction done of the whole run, 0 to 1
+  /// @param elapsed_s  since the run began
+  /// @return absent while it is not yet time for a line
+  std::optional<std::string> line(std::string_view phase, double whole, double elapsed_s);
+
+ private:
+  double next_s_ = 10.0;
+};
+
+/// The progress of a run on stderr: on a terminal a line that is drawn anew and wiped by the
+/// destructor, elsewhere the lines of a log. Nothing after be_quiet.
 class ProgressLine {
  public:
   ProgressLine() = default;
@@ -64,15 +77,17 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Shows the progress, at most every 0.2 s within a phase.
+  /// Shows the progress, on a terminal at most every 0.2 s within a phase.
   /// @param whole  fraction done of the whole run, 0 to 1
   void show(const std::string& phase, double whole);
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  void draw(const std::string& phase, double whole, Clock::time_point now);
   void wipe();
 
+  ProgressLog log_;
   std::string phase_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point shown_;

@@ -1,5 +1,8 @@
 #include "report/timing.hpp"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -72,6 +75,16 @@ double peak_MiB()
   constexpr double KiB_per_MiB = 1024.0;
   const auto most = std::max(usage_of(RUSAGE_SELF).ru_maxrss, usage_of(RUSAGE_CHILDREN).ru_maxrss);
   return static_cast<double>(most) / KiB_per_MiB;
+}
+
+void keep_freed_memory()
+{
+#ifdef __GLIBC__
+  constexpr int MiB = 1 << 20;
+  // To set one of the two ends glibc's own adaptation of both.
+  mallopt(M_MMAP_THRESHOLD, 32 * MiB);  // the most that glibc takes
+  mallopt(M_TRIM_THRESHOLD, 64 * MiB);
+#endif
 }
 
 }  // namespace chladni::report

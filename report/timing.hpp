@@ -46,4 +46,9 @@ double process_cpu_s();
 /// Peak memory of this process so far, MiB.
 double peak_MiB();
 
+/// Lets the heap keep up to 64 MiB of what is freed for the next arrays. A loop that makes and
+/// frees matrices otherwise gives them back to the machine each time and takes cleared pages again,
+/// which can take longer than what is computed in them. For the whole process, at its start.
+void keep_freed_memory();
+
 }  // namespace chladni::report

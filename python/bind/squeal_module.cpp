@@ -20,6 +20,7 @@
 #include "report/describe_body.hpp"
 #include "report/page/pages.hpp"
 #include "report/text_table.hpp"
+#include "report/timing.hpp"
 #include "report/version.hpp"
 #include "scene/keys.hpp"
 #include "scene/scene.hpp"
@@ -190,6 +191,7 @@ void declare_functions(py::module_& module)
 {
   module.def("run_squeal", [](const scene::Scene& scene, const std::string& folder,
                               const std::string& body, py::object listener) {
+    report::keep_freed_memory();
     Progress progress(std::move(listener));
     return run_squeal(scene, {.folder = folder, .body = body}, progress);
   });

@@ -1,6 +1,11 @@
 #include "report/progress.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <vector>
+
+#include "report/timing.hpp"
 
 namespace chladni::report {
 namespace {
@@ -54,6 +59,51 @@ TEST(ProgressText, DrawsABarAndThenTheTimeLeft)
   EXPECT_EQ(progress_text("transient", 0.0, 4.0), "[--------------------]   0 %  transient");
   EXPECT_EQ(progress_text("write", 1.5, 4.0), "[####################] 100 %  write, 0 s left");
 }
+
+TEST(ProgressLog, HasFewLinesWithTheTimeLeft)
+{
+  ProgressLog log;
+  EXPECT_FALSE(log.line("mesh", 0.1, 9.9));
+  EXPECT_EQ(log.line("modes", 0.25, 10.0), "10 s: 25 %  modes, 30 s left");
+  EXPECT_FALSE(log.line("modes", 0.3, 19.9));
+  EXPECT_EQ(log.line("modes", 0.01, 21.0), "21 s: 1 %  modes");
+  int n_lines = 0;
+  for (int s = 22; s <= 3600; ++s) n_lines += log.line("modes", 0.5, s) ? 1 : 0;
+  EXPECT_EQ(n_lines, 60);
+}
+
+#ifndef CHLADNI_SANITIZED  // malloc is another one there
+
+long pages_touched_first()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_minflt;
+}
+
+/// Matrices that together are more than glibc's heap keeps, and each below what it maps.
+double sum_of_matrices()
+{
+  constexpr std::size_t n_matrices = 40, n = 12500;
+  std::vector<std::vector<double>> matrices;
+  for (std::size_t i = 0; i < n_matrices; ++i) matrices.emplace_back(n, 1.0);
+  double sum = 0.0;
+  for (const std::vector<double>& matrix : matrices) sum += matrix.back();
+  return sum;
+}
+
+TEST(KeepFreedMemory, GivesTheNextMatricesThePagesOfTheLast)
+{
+  keep_freed_memory();
+  double sum = sum_of_matrices();
+  const long before = pages_touched_first();
+  for (int i = 0; i < 20; ++i) sum += sum_of_matrices();
+  EXPECT_EQ(sum, 21.0 * 40.0);
+  constexpr long pages_of_all = 40 * 12500 * sizeof(double) / 4096;
+  EXPECT_LT(pages_touched_first() - before, pages_of_all);  // of 20 times as many
+}
+
+#endif
 
 }  // namespace
 }  // namespace chladni::report
