@@ -73,6 +73,7 @@ void transfer_declarations(auto& archive, auto& declared)
     a(shell.offset);
   });
   archive.each(declared.beams, [](auto& a, auto& beam) { transfer_beam(a, beam); });
+  archive.each(declared.solids, [](auto& a, auto& solid) { transfer_section(a, solid); });
   archive.each(declared.couplings, [](auto& a, auto& coupling) {
     a(coupling.name);
     a(coupling.group);
@@ -101,20 +102,6 @@ void transfer_declarations(auto& archive, auto& declared)
 void require(bool holds, const char* what)
 {
   if (!holds) throw Error(fmt::format("the mesh that Gmsh made has {}", what));
-}
-
-int n_nodes_of(Shape shape, int order)
-{
-  switch (shape) {
-    case Shape::line:
-      return order + 1;
-    case Shape::triangle:
-      return (order + 1) * (order + 2) / 2;
-    case Shape::quadrilateral:
-      return (order + 1) * (order + 1);
-    default:
-      return static_cast<int>(solid_nodes(shape, order).size());
-  }
 }
 
 void check_nodes(const Mesh& mesh)

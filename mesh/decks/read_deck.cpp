@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "mesh/decks/abaqus.hpp"
+#include "mesh/decks/ansys.hpp"
 #include "mesh/decks/nastran.hpp"
 #include "mesh/gmsh_text.hpp"
 
@@ -37,9 +38,9 @@ auto of_text(const MeshOptions& options, auto&& read)
   }
 }
 
-bool is_abaqus(const MeshOptions& options)
+MeshSource source_of_deck(const MeshOptions& options)
 {
-  return mesh_source(options.file.value()) == MeshSource::abaqus;
+  return mesh_source(options.file.value()).value();
 }
 
 }  // namespace
@@ -47,16 +48,20 @@ bool is_abaqus(const MeshOptions& options)
 Mesh deck_mesh(const MeshOptions& options)
 {
   return of_text(options, [&](const std::string& text, const ReadIncluded& included) {
-    const Deck deck = is_abaqus(options) ? abaqus_deck(abaqus_keywords(text, included))
-                                         : nastran_deck(nastran_cards(text, included));
-    return mesh_of(deck, options);
+    const MeshSource source = source_of_deck(options);
+    return mesh_of(source == MeshSource::ansys    ? ansys_deck(text, included)
+                   : source == MeshSource::abaqus ? abaqus_deck(abaqus_keywords(text, included))
+                                                  : nastran_deck(nastran_cards(text, included)),
+                   options);
   });
 }
 
 Declarations declarations_here(const MeshOptions& options, const DeckUnits& units)
 {
   return of_text(options, [&](const std::string& text, const ReadIncluded& included) {
-    if (is_abaqus(options)) {
+    const MeshSource source = source_of_deck(options);
+    if (source == MeshSource::ansys) return ansys_declarations(text, included, units);
+    if (source == MeshSource::abaqus) {
       const std::vector<Keyword> keywords = abaqus_keywords(text, included);
       return abaqus_declarations(keywords, abaqus_deck(keywords), units);
     }

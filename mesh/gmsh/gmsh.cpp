@@ -369,10 +369,7 @@ void raise_linear_solids(Mesh& mesh)
       std::ranges::count(types, tetrahedron) + std::ranges::count(types, wedge) > 0;
   if (!is_linear) return;
   gmsh::model::mesh::setOrder(2);
-  mesh.notes.emplace_back(
-      "solids of order 1 got nodes in the middle of their edges: with corners alone they are far "
-      "too "
-      "stiff");
+  mesh.notes.emplace_back(solids_are_raised);
 }
 
 Mesh current_model(const MeshOptions& options)
