@@ -126,6 +126,7 @@ void check_block(const ElementBlock& block, const Mesh& mesh)
 {
   constexpr int highest_order = 20;
   require(block.order >= 1 && block.order <= highest_order, "elements of no order");
+  require(block.shape >= Shape::line && block.shape <= Shape::wedge, "elements of no shape");
   const int n = n_nodes_of(block.shape, block.order);
   require(n > 0 && block.nodes_per_element == n, "elements with too few or too many nodes");
   require(block.numbers.size() < std::size_t(1) << 31, "more elements than can be counted");

@@ -184,8 +184,8 @@ class AbaqusReader {
     if (section != section_of_.end() &&
         (section->second.dimension != d || type.use == ElementUse::marking)) {
       section->second.keyword->refuse(
-          fmt::format("element {} is of the type {}, which has another section", number,
-                      keyword.parameter("TYPE")));
+          fmt::format("\"{}\" holds element {} of the type {}, which is none of this section", name,
+                      number, keyword.parameter("TYPE")));
     }
     const int group = group_index(deck_, name, d);
     if (deck_.groups[std::size_t(group)].dimension != d) {

@@ -16,7 +16,6 @@
 #include <set>
 
 #include "common/error.hpp"
-#include "mesh/decks/ansys_commands.hpp"
 #include "mesh/decks/file_elements.hpp"
 #include "mesh/element_types.hpp"
 #include "mesh/mesh.hpp"
@@ -107,7 +106,11 @@ class AnsysReader {
     add_missing_middles(deck_);
     if (!left_out_.empty()) {
       std::vector<std::string> names;
-      for (const auto& [name, n] : left_out_) names.push_back(name);
+      constexpr std::size_t most = 12;
+      for (const auto& [name, n] : left_out_)
+        if (names.size() < most) names.push_back(name);
+      if (left_out_.size() > most)
+        names.push_back(fmt::format("and {} others", left_out_.size() - most));
       deck_.notes.push_back(fmt::format("commands that are no part of a mesh are left out: {}",
                                         fmt::join(names, ", ")));
     }
@@ -168,7 +171,8 @@ class AnsysReader {
 
   void type(const AnsysCommand& command)
   {
-    AnsysType& type = types_[command.whole(1, "number of a type")];
+    last_type_ = command.whole(1, "number of a type");
+    AnsysType& type = types_[last_type_];
     type = {};
     const std::string_view name = command.word(2);
     const std::size_t digit = std::min(name.find_first_of("0123456789"), name.size());
@@ -201,12 +205,30 @@ class AnsysReader {
         command.whole_or(3, "option", 0);
   }
 
+  static bool is_surface_effect(std::int64_t type)
+  {
+    constexpr std::int64_t first = 151, last = 156, mesh = 200;
+    return (type >= first && type <= last) || type == mesh;
+  }
+
+  /// Mechanical writes surface effects and contact so, of the type that it defined last.
+  void leave_out_block(const AnsysCommand& command)
+  {
+    const auto type = types_.find(last_type_);
+    const std::int64_t number = type == types_.end() ? 0 : type->second.number;
+    if (!is_surface_effect(number)) {
+      command.refuse(
+          fmt::format("a block without SOLID, of the type {}; only surface effects (151 to 156) "
+                      "are passed over, "
+                      "contact is not read: write the archive anew with CDWRITE, without contact",
+                      number));
+    }
+    n_surfaces_[number] += int(command.rows.size());
+  }
+
   void elements(const AnsysCommand& command)
   {
-    if (command.word(2) != "SOLID") {
-      left_out_["EBLOCK without SOLID"] += int(command.rows.size());
-      return;
-    }
+    if (command.word(2) != "SOLID") return leave_out_block(command);
     constexpr std::size_t n_head = 11, in_first_row = 8;
     const AnsysColumns columns(command);
     for (std::size_t i = 0; i < command.rows.size(); ++i) {
@@ -244,8 +266,7 @@ class AnsysReader {
     const std::vector<std::int64_t> nodes(numbers.begin() + 11, numbers.end());
     if (!place_of_.emplace(number, deck_.elements.size()).second)
       command.refuse(row, fmt::format("element {} is there twice", number));
-    constexpr std::int64_t mass = 21, spring = 14, first_surface = 151, last_surface = 156,
-                           mesh = 200;
+    constexpr std::int64_t mass = 21, spring = 14;
     if (type == mass || type == spring) {
       place_of_.erase(number);
       return add_point(command, {.place = row.place,
@@ -254,7 +275,7 @@ class AnsysReader {
                                  .constants = numbers[2],
                                  .nodes = nodes});
     }
-    if ((type >= first_surface && type <= last_surface) || type == mesh) {
+    if (is_surface_effect(type)) {
       place_of_.erase(number);
       ++n_surfaces_[type];
       return;
@@ -514,6 +535,7 @@ class AnsysReader {
   std::vector<AnsysCommand> commands_;
   Deck deck_;
   std::map<std::int64_t, AnsysType> types_;
+  std::int64_t last_type_ = 0;
   std::map<std::int64_t, std::size_t> place_of_;                 ///< of elements in the deck
   std::map<std::int64_t, std::int64_t> material_of_;             ///< of shells
   std::map<std::string, std::vector<std::int64_t>> components_;  ///< nodes

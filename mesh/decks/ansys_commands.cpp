@@ -1,4 +1,4 @@
-#include "mesh/decks/ansys_commands.hpp"
+#include "mesh/decks/ansys.hpp"
 
 #include <fmt/format.h>
 
@@ -156,7 +156,7 @@ std::vector<AnsysCommand> ansys_commands(const DeckLines& lines)
     }
     std::vector<std::string> words = cut_at_commas(text);
     const bool sets = words[0] == "*SET" && words.size() > 2;
-    if (sets) parameters[words[1]] = words[2];
+    if (sets && number_of_ansys<double>(words[2])) parameters[words[1]] = words[2];
     for (std::size_t i = 1; i < words.size() && !sets; ++i)
       if (const auto value = parameters.find(words[i]); value != parameters.end())
         words[i] = value->second;

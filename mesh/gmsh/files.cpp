@@ -16,7 +16,6 @@
 
 #include "common/confinement/sandbox.hpp"
 #include "common/error.hpp"
-#include "mesh/decks/read_deck.hpp"
 #include "mesh/gmsh_text.hpp"
 #include "mesh/mesh_archive.hpp"
 #include "mesh/own_readers.hpp"
@@ -360,11 +359,11 @@ void add_groups(const MeshOptions& options, const std::vector<std::vector<Entity
     }
     if (parts.empty()) continue;
     given.at(parts.front().first) = true;
-    add_entity_group(options.groups[i], parts);
+    add_entity_group(options.groups[i], parts, options);
   }
   for (const auto& [entity, parts] : became) {
     if (given.at(entity.first) || parts.empty()) continue;
-    add_entity_group({.name = entity_name(entity), .entities = {}}, parts);
+    add_entity_group({.name = entity_name(entity), .entities = {}}, parts, options);
   }
 }
 
@@ -416,7 +415,6 @@ std::string list(const std::vector<Entity>& entities)
 
 void check_ungrouped(const EntityGroup& group, const Entity& entity)
 {
-  if (entity.first < 2) return;
   std::vector<int> tags;
   gmsh::model::getPhysicalGroupsForEntity(entity.first, entity.second, tags);
   if (tags.empty()) return;
@@ -479,11 +477,12 @@ std::vector<Entity> find_entities(const EntityGroup& group)
   return found;
 }
 
-void add_entity_group(const EntityGroup& group, const std::vector<Entity>& entities)
+void add_entity_group(const EntityGroup& group, const std::vector<Entity>& entities,
+                      const MeshOptions& options)
 {
   std::vector<int> tags;
   for (const Entity& entity : entities) {
-    check_ungrouped(group, entity);
+    if (entity.first == dimension_of_body(options)) check_ungrouped(group, entity);
     tags.push_back(entity.second);
   }
   std::ranges::sort(tags);
@@ -500,7 +499,8 @@ void add_groups_of_each_entity(const MeshOptions& options)
 
 void add_entity_groups(const MeshOptions& options)
 {
-  for (const EntityGroup& group : options.groups) add_entity_group(group, find_entities(group));
+  for (const EntityGroup& group : options.groups)
+    add_entity_group(group, find_entities(group), options);
   add_groups_of_each_entity(options);
 }
 

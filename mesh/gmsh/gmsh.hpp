@@ -138,8 +138,10 @@ std::string entity_name(const Entity& entity);
 std::vector<Entity> find_entities(const EntityGroup& group);
 
 /// Adds a physical group of the entities.
-/// @throws chladni::Error when a surface or volume already belongs to a group.
-void add_entity_group(const EntityGroup& group, const std::vector<Entity>& entities);
+/// @throws chladni::Error when a surface, or a volume of a body of solids, already belongs to a
+/// group.
+void add_entity_group(const EntityGroup& group, const std::vector<Entity>& entities,
+                      const MeshOptions& options);
 
 /// Adds a group for each surface if no surface has one, and for each curve if no curve has one; of
 /// a body of solids also for each volume.

@@ -90,7 +90,7 @@ TEST_F(AbaqusFile, ErrorsNameFileLineAndKeyword)
 {
   const std::string file =
       write("a.inp", abaqus_square + "*Element, type=C3D5\n2, 1, 2, 3, 4, 5\n");
-  expect_words(error_of({.file = file}), {"a.inp", "line 7", "*ELEMENT", "C3D5", "hexahedra"});
+  expect_words(error_of({.file = file}), {"a.inp", "line 8", "*ELEMENT", "C3D5", "hexahedra"});
   expect_words(error_of({.file = path("absent.inp")}), {"absent.inp", "does not exist"});
 }
 
@@ -330,7 +330,7 @@ const std::vector<Refusal> refused_solids{
      {"line 24: element 1 has a node between 3 and 4", "line 26: element 2 has none"}},
     {cube + "*Element, type=S4, elset=Plate\n7, 1, 2, 3, 4\n" + abaqus_steel +
          "*Solid Section, elset=Plate, material=Steel\n",
-     {"*SOLID SECTION", "element 7 is of the type S4"}}};
+     {"*SOLID SECTION", "element 7 of the type S4"}}};
 
 INSTANTIATE_TEST_SUITE_P(Abaqus, RefusedSolid, ::testing::ValuesIn(refused_solids));
 
@@ -370,7 +370,8 @@ const std::vector<Refusal> refused_keywords{
     {abaqus_plate + "*Element, type=S4\n1, 1, 2, 3, 4\n", {"element 1", "twice"}},
     {abaqus_plate + "*Element, type=S9R5\n", {"S9R5", "not known"}},
     {abaqus_plate + "*Element, type=S4\n5, 1, 2, 3,\n", {"ends with a comma"}},
-    {abaqus_plate + "*Element, type=B31, elset=Plate\n5, 1, 2\n", {"PLATE", "shells and beams"}},
+    {abaqus_plate + "*Element, type=B31, elset=Plate\n5, 1, 2\n",
+     {"*SHELL SECTION", "\"PLATE\"", "element 5", "B31"}},
     {abaqus_plate + "*Nset, nset=N\nAbsent\n", {"line 16", "no set \"ABSENT\""}},
     {abaqus_plate + "*Nset, nset=N, generate\n5, 1\n", {"line 16", "no range"}},
     {abaqus_plate + "*Boundary\nAbsent, 1\n", {"no node set \"ABSENT\""}},

@@ -174,6 +174,8 @@ const std::vector<Refusal> refused_commands{
     {cube_of_8 + ansys_steel + "MPDATA,R5.0, 2,EX  ,       3, 1,  210000.0, 200000.0\n",
      {"EX of material 3", "temperature"}},
     {cube_of_8 + "CP,1,UX,1,2\n", {"line 20", "CP", "another one"}},
+    {cube_of_8 + "*SET,TID,174\nET,7,TID\nEBLOCK,10,,,1\n(15i9)\n        6        7\n-1\n",
+     {"line 22", "type 174", "contact"}},
     {cube_of_8 + "N,9,1.,2.\n", {"line 20", "NBLOCK"}},
     {cube_of_8 + "D,1,UX,0.1\n", {"line 20", "prescribes"}},
     {cube_of_8 + "D,1,TEMP\n", {"line 20", "TEMP"}},
