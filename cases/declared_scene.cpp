@@ -70,6 +70,12 @@ std::string beam(const mesh::DeclaredBeam& beam)
   return text;
 }
 
+std::string solid(const mesh::DeclaredSolid& solid)
+{
+  return fmt::format("\n[[section]]\ngroup = {}\ntype = \"solid\"\nmaterial = {}\n",
+                     quoted(solid.group), quoted(solid.material));
+}
+
 std::string support(const mesh::DeclaredSupport& support)
 {
   std::string dofs;
@@ -146,9 +152,9 @@ std::string declared_scene(const mesh::Declarations& declared, const DeckScene& 
   text += fmt::format("name = {}\n\n[mesh]\nfile = {}\nlength_unit = {}\n", quoted(scene.name),
                       quoted(scene.file), quoted(scene.length_unit));
   text += each(declared.materials, material) + each(declared.shells, shell) +
-          each(declared.beams, beam) + each(declared.couplings, coupling) +
-          each(declared.supports, support) + each(declared.masses, mass) +
-          each(declared.springs, spring);
+          each(declared.beams, beam) + each(declared.solids, solid) +
+          each(declared.couplings, coupling) + each(declared.supports, support) +
+          each(declared.masses, mass) + each(declared.springs, spring);
   return text + "\n[modes]\ncount = 10\n";
 }
 

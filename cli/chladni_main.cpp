@@ -20,6 +20,7 @@
 #include "linear/blas_kernels.hpp"
 #include "linear/blas_memory.hpp"
 #include "linear/solver_options.hpp"
+#include "mesh/mesh_options.hpp"
 #include "report/progress.hpp"
 #include "report/text_table.hpp"
 #include "report/version.hpp"
@@ -126,8 +127,9 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
 void declare_import(CLI::App& app, chladni::cli::ImportArguments& arguments)
 {
   CLI::App* imported = app.add_subcommand(
-      "import", "writes a scene with the mesh and model of a Nastran or Abaqus deck");
-  imported->add_option("DECK", arguments.deck, "*.bdf, *.nas, *.dat or *.inp")->required();
+      "import", "writes a scene with the mesh and model of a deck of another program");
+  const std::string decks = chladni::mesh::extensions_with_programs(chladni::mesh::is_deck);
+  imported->add_option("DECK", arguments.deck, decks)->required();
   chladni::cli::declare_length_unit(*imported, arguments.length_unit);
   imported->get_option("--length-unit")->required();
   imported

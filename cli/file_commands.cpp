@@ -156,9 +156,9 @@ void import_and_write(const ImportArguments& arguments)
 {
   if (!mesh::is_deck(arguments.deck)) {
     throw Error(
-        fmt::format("{}: only a deck of Nastran (.bdf, .nas, .dat) or Abaqus (.inp) is "
-                    "imported; other mesh files have no sections",
-                    arguments.deck));
+        fmt::format("{}: only a deck of another program ({}) is imported; other mesh files have no "
+                    "sections",
+                    arguments.deck, mesh::extensions_with_programs(mesh::is_deck)));
   }
   const std::string usual = arguments.length_unit == "inch" ? "lbf" : "N";
   const mesh::Declarations declared = mesh::declarations(

@@ -15,9 +15,7 @@ namespace {
 /// Lattice place of column i and row j; the rows of a triangle grow shorter.
 class Lattice {
  public:
-  explicit Lattice(const ElementBlock& block)
-      : p_(block.order), is_triangle_(block.shape == Shape::triangle)
-  {}
+  Lattice(Shape shape, int order) : p_(order), is_triangle_(shape == Shape::triangle) {}
   int operator()(int i, int j) const
   {
     return is_triangle_ ? j * (p_ + 1) - j * (j - 1) / 2 + i : j * (p_ + 1) + i;
@@ -75,7 +73,7 @@ std::vector<LatticeCell> lattice_cells(const ElementBlock& block, int step)
   const int p = block.order;
   if (block.shape == Shape::line) return line_cells(p, step);
   const bool triangle = block.shape == Shape::triangle;
-  const Lattice place(block);
+  const Lattice place(block.shape, p);
   std::vector<LatticeCell> cells;
   for (int j = 0; j < p; j += step) {
     for (int i = 0; i + (triangle ? j : 0) < p; i += step) {
@@ -95,25 +93,39 @@ std::vector<LatticeCell> lattice_cells(const ElementBlock& block, int step)
 
 namespace {
 
-std::vector<std::vector<int>> edges_of_solid(const ElementBlock& block, int element);
+std::vector<std::vector<int>> places_of_solid_edges(Shape shape, int order);
+
+std::vector<std::vector<int>> places_of_surface_edges(Shape shape, int p)
+{
+  const bool triangle = shape == Shape::triangle;
+  const Lattice place(shape, p);
+  std::vector<std::vector<int>> edges(triangle ? 3 : 4);
+  for (int i = 0; i <= p; ++i) {
+    edges[0].push_back(place(i, 0));
+    edges[1].push_back(place(0, i));
+    edges[2].push_back(triangle ? place(p - i, i) : place(p, i));
+    if (!triangle) edges[3].push_back(place(i, p));
+  }
+  return edges;
+}
 
 }  // namespace
 
+std::vector<std::vector<int>> places_of_edges(Shape shape, int order)
+{
+  if (is_solid(shape)) return places_of_solid_edges(shape, order);
+  if (shape != Shape::line) return places_of_surface_edges(shape, order);
+  std::vector<int> edge(std::size_t(order) + 1);
+  std::iota(edge.begin(), edge.end(), 0);
+  return {edge};
+}
+
 std::vector<std::vector<int>> edges_of(const ElementBlock& block, int element)
 {
-  const int p = block.order;
   const std::span<const int> nodes = block.element_nodes(element);
-  if (block.shape == Shape::line) return {{nodes.begin(), nodes.end()}};
-  if (is_solid(block.shape)) return edges_of_solid(block, element);
-  const bool triangle = block.shape == Shape::triangle;
-  const Lattice place(block);
-  std::vector<std::vector<int>> edges(triangle ? 3 : 4);
-  for (int i = 0; i <= p; ++i) {
-    edges[0].push_back(nodes[place(i, 0)]);
-    edges[1].push_back(nodes[place(0, i)]);
-    edges[2].push_back(nodes[triangle ? place(p - i, i) : place(p, i)]);
-    if (!triangle) edges[3].push_back(nodes[place(i, p)]);
-  }
+  std::vector<std::vector<int>> edges = places_of_edges(block.shape, block.order);
+  for (std::vector<int>& edge : edges)
+    for (int& node : edge) node = nodes[node];
   return edges;
 }
 
@@ -165,16 +177,14 @@ std::vector<int> inner_places(Shape shape, int order, int a, int b)
   return {};
 }
 
-std::vector<std::vector<int>> edges_of_solid(const ElementBlock& block, int element)
+std::vector<std::vector<int>> places_of_solid_edges(Shape shape, int order)
 {
-  const std::span<const int> nodes = block.element_nodes(element);
   std::vector<std::vector<int>> edges;
-  for (const std::vector<int>& ends : solid_edges(block.shape)) {
-    std::vector<int> edge{nodes[ends[0]]};
-    for (const int place : inner_places(block.shape, block.order, ends[0], ends[1]))
-      edge.push_back(nodes[place]);
-    edge.push_back(nodes[ends[1]]);
-    edges.push_back(std::move(edge));
+  for (const std::vector<int>& ends : solid_edges(shape)) {
+    edges.push_back({ends[0]});
+    for (const int place : inner_places(shape, order, ends[0], ends[1]))
+      edges.back().push_back(place);
+    edges.back().push_back(ends[1]);
   }
   return edges;
 }
@@ -186,6 +196,24 @@ int n_corners(Shape shape)
   constexpr std::array corners{2, 3, 4, 4, 8, 6};
   return corners[std::size_t(shape)];
 }
+
+int n_nodes_of(Shape shape, int order)
+{
+  switch (shape) {
+    case Shape::line:
+      return order + 1;
+    case Shape::triangle:
+      return (order + 1) * (order + 2) / 2;
+    case Shape::quadrilateral:
+      return (order + 1) * (order + 1);
+    default:
+      return n_corners(shape) + int(solid_edges(shape).size()) * (order - 1);
+  }
+}
+
+const char* const solids_are_raised =
+    "solids of order 1 got nodes in the middle of their edges: with corners alone they are far too "
+    "stiff";
 
 std::vector<int> corner_places(const ElementBlock& block)
 {
@@ -211,6 +239,21 @@ std::vector<std::array<double, 3>> solid_nodes(Shape shape, int order)
     }
   }
   return nodes;
+}
+
+std::vector<int> mirrored_places(Shape shape, int order)
+{
+  const std::vector<std::array<double, 3>> nodes = solid_nodes(shape, order);
+  std::vector<int> places;
+  constexpr double near = 1e-6;
+  for (const auto& [r, s, t] : nodes) {
+    const std::array<double, 3> mirrored{s, r, t};
+    const auto is_there = [&](const std::array<double, 3>& x) {
+      return norm(minus(x, mirrored)) < near;
+    };
+    places.push_back(static_cast<int>(std::ranges::find_if(nodes, is_there) - nodes.begin()));
+  }
+  return places;
 }
 
 std::vector<std::vector<int>> solid_faces(Shape shape, int order)

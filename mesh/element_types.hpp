@@ -19,6 +19,9 @@ std::vector<LatticeCell> lattice_cells(const ElementBlock& block, int step);
 /// The nodes of each edge of an element, in order from end to end.
 std::vector<std::vector<int>> edges_of(const ElementBlock& block, int element);
 
+/// The places of the nodes of each edge of an element, from end to end.
+std::vector<std::vector<int>> places_of_edges(Shape shape, int order);
+
 /// The element edges with all their nodes in the group. An edge between two elements is returned
 /// once.
 std::vector<std::vector<int>> edges_in(const Mesh& mesh, const Group& group);
@@ -38,8 +41,17 @@ std::vector<std::array<double, 3>> solid_nodes(Shape shape, int order);
 /// then the inner nodes of the edges in the same turn.
 std::vector<std::vector<int>> solid_faces(Shape shape, int order);
 
+/// The place that each node of a solid takes when r and s change places, which turns it inside out.
+std::vector<int> mirrored_places(Shape shape, int order);
+
 /// The number of corners of an element, which come first in `corners_first` and in a solid.
 int n_corners(Shape shape);
+
+/// The number of nodes of an element in an `ElementBlock`.
+int n_nodes_of(Shape shape, int order);
+
+/// What is told where tetrahedra and wedges without nodes on their edges got such.
+extern const char* const solids_are_raised;
 
 /// The places of the corners of an element, around it if it is a surface.
 std::vector<int> corner_places(const ElementBlock& block);

@@ -73,6 +73,7 @@ void transfer_declarations(auto& archive, auto& declared)
     a(shell.offset);
   });
   archive.each(declared.beams, [](auto& a, auto& beam) { transfer_beam(a, beam); });
+  archive.each(declared.solids, [](auto& a, auto& solid) { transfer_section(a, solid); });
   archive.each(declared.couplings, [](auto& a, auto& coupling) {
     a(coupling.name);
     a(coupling.group);
@@ -103,20 +104,6 @@ void require(bool holds, const char* what)
   if (!holds) throw Error(fmt::format("the mesh that Gmsh made has {}", what));
 }
 
-int n_nodes_of(Shape shape, int order)
-{
-  switch (shape) {
-    case Shape::line:
-      return order + 1;
-    case Shape::triangle:
-      return (order + 1) * (order + 2) / 2;
-    case Shape::quadrilateral:
-      return (order + 1) * (order + 1);
-    default:
-      return static_cast<int>(solid_nodes(shape, order).size());
-  }
-}
-
 void check_nodes(const Mesh& mesh)
 {
   require(mesh.node_numbers.size() == mesh.positions.size(), "nodes without a number");
@@ -139,6 +126,7 @@ void check_block(const ElementBlock& block, const Mesh& mesh)
 {
   constexpr int highest_order = 20;
   require(block.order >= 1 && block.order <= highest_order, "elements of no order");
+  require(block.shape >= Shape::line && block.shape <= Shape::wedge, "elements of no shape");
   const int n = n_nodes_of(block.shape, block.order);
   require(n > 0 && block.nodes_per_element == n, "elements with too few or too many nodes");
   require(block.numbers.size() < std::size_t(1) << 31, "more elements than can be counted");

@@ -13,26 +13,28 @@
 namespace chladni::mesh {
 
 /// How a mesh file is read.
-enum class MeshSource { msh, geo, step, unv, med, nastran, abaqus };
+enum class MeshSource { msh, geo, step, unv, med, nastran, abaqus, ansys };
 
 /// A kind of mesh file, by what its name ends with, in letters of either case.
 struct FileKind {
   std::string_view extension;
   MeshSource source;
+  std::string_view program;  ///< or format, as people call it
 };
 
 /// All kinds of mesh files.
-inline constexpr std::array<FileKind, 11> file_kinds{{{".msh", MeshSource::msh},
-                                                      {".geo", MeshSource::geo},
-                                                      {".step", MeshSource::step},
-                                                      {".stp", MeshSource::step},
-                                                      {".unv", MeshSource::unv},
-                                                      {".med", MeshSource::med},
-                                                      {".mmed", MeshSource::med},
-                                                      {".bdf", MeshSource::nastran},
-                                                      {".nas", MeshSource::nastran},
-                                                      {".dat", MeshSource::nastran},
-                                                      {".inp", MeshSource::abaqus}}};
+inline constexpr std::array<FileKind, 12> file_kinds{{{".msh", MeshSource::msh, "Gmsh"},
+                                                      {".geo", MeshSource::geo, "Gmsh"},
+                                                      {".step", MeshSource::step, "STEP"},
+                                                      {".stp", MeshSource::step, "STEP"},
+                                                      {".unv", MeshSource::unv, "universal files"},
+                                                      {".med", MeshSource::med, "MED"},
+                                                      {".mmed", MeshSource::med, "MED"},
+                                                      {".bdf", MeshSource::nastran, "Nastran"},
+                                                      {".nas", MeshSource::nastran, "Nastran"},
+                                                      {".dat", MeshSource::nastran, "Nastran"},
+                                                      {".inp", MeshSource::abaqus, "Abaqus"},
+                                                      {".cdb", MeshSource::ansys, "Ansys"}}};
 
 /// How a mesh file of this name is read; nothing if it is none by its name.
 inline std::optional<MeshSource> mesh_source(std::string_view file)
@@ -40,7 +42,7 @@ inline std::optional<MeshSource> mesh_source(std::string_view file)
   const auto is_same = [](char a, char b) {
     return std::tolower(static_cast<unsigned char>(a)) == b;
   };
-  for (const auto& [extension, source] : file_kinds) {
+  for (const auto& [extension, source, program] : file_kinds) {
     if (file.size() <= extension.size()) continue;
     if (std::ranges::equal(file.substr(file.size() - extension.size()), extension, is_same))
       return source;
@@ -51,7 +53,8 @@ inline std::optional<MeshSource> mesh_source(std::string_view file)
 /// True for a deck of another FE program. It has sections and does not tell its unit of length.
 constexpr bool is_deck(MeshSource source)
 {
-  return source == MeshSource::nastran || source == MeshSource::abaqus;
+  return source == MeshSource::nastran || source == MeshSource::abaqus ||
+         source == MeshSource::ansys;
 }
 inline bool is_deck(std::string_view file)
 {
@@ -80,6 +83,22 @@ inline std::string extensions_of(bool (*holds)(MeshSource) = [](MeshSource) { re
   std::string text;
   for (std::size_t i = 0; i < found.size(); ++i)
     text.append(i == 0 ? "" : i + 1 < found.size() ? ", " : " or ").append(found[i]);
+  return text;
+}
+
+/// The extensions of those kinds, with program or format: ".msh, .geo (Gmsh), ... .cdb (Ansys)".
+inline std::string extensions_with_programs(bool (*holds)(MeshSource) = [](MeshSource) {
+  return true;
+})
+{
+  std::string text;
+  for (std::size_t i = 0; i < file_kinds.size(); ++i) {
+    const FileKind& kind = file_kinds[i];
+    if (!holds(kind.source)) continue;
+    text.append(text.empty() ? "" : ", ").append(kind.extension);
+    if (i + 1 == file_kinds.size() || file_kinds[i + 1].program != kind.program)
+      text.append(" (").append(kind.program).append(")");
+  }
   return text;
 }
 

@@ -364,7 +364,9 @@ namespace {
 bool has_section(const Mesh& mesh, Shape shape, int group, const MeshOptions& options)
 {
   if (group < 0) return false;
-  const auto& names = shape == Shape::line ? options.line_groups : options.shell_groups;
+  const auto& names = is_solid(shape)        ? options.solid_groups
+                      : shape == Shape::line ? options.line_groups
+                                             : options.shell_groups;
   return std::ranges::find(names, mesh.groups[std::size_t(group)].name) != names.end();
 }
 

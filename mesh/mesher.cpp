@@ -12,7 +12,6 @@
 #include "common/confinement/helper_process.hpp"
 #include "common/confinement/sandbox.hpp"
 #include "common/error.hpp"
-#include "mesh/decks/read_deck.hpp"
 #include "mesh/mesh_archive.hpp"
 #include "mesh/own_readers.hpp"
 

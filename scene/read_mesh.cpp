@@ -26,8 +26,7 @@ std::string read_file_name(const Table& mesh, const std::string& scene_path)
 {
   const std::filesystem::path file = mesh.text("file");
   if (!mesh::mesh_source(file.string())) {
-    mesh.refuse("file", "must be a mesh file: " + mesh::extensions_of() +
-                            " (a deck of Nastran or, the last one, of Abaqus)" +
+    mesh.refuse("file", "must be a mesh file: " + mesh::extensions_with_programs() +
                             mesh::instead_of(file.string()));
   }
   return (std::filesystem::path(scene_path).parent_path() / file).lexically_normal().string();

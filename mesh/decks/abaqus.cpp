@@ -12,6 +12,8 @@
 
 #include "common/error.hpp"
 #include "mesh/decks/deck.hpp"
+#include "mesh/decks/file_elements.hpp"
+#include "mesh/element_types.hpp"
 #include "mesh/mesh.hpp"
 
 namespace chladni::mesh {
@@ -20,20 +22,52 @@ using std::numbers::pi;
 
 namespace {
 
-/// What an element type is, by its number of nodes; lines have two or three.
-struct AbaqusType {
-  Shape shape;
-  std::size_t n_nodes;
+/// *SECTION keywords and the dimension of their elements.
+const std::unordered_map<std::string, int>& section_keywords()
+{
+  static const std::unordered_map<std::string, int> all{
+      {"SHELL SECTION", 2}, {"BEAM SECTION", 1}, {"SOLID SECTION", 3}};
+  return all;
+}
+
+const FileElement& type_of_elements(const Keyword& keyword)
+{
+  const std::string& name = keyword.parameter("TYPE");
+  const std::vector<FileElement>& types = file_elements(Format::abaqus, name);
+  if (!types.empty()) return types.front();
+  if (name.starts_with("C3D")) keyword.refuse(fmt::format("{} is {}", name, no_such_solid));
+  keyword.refuse(fmt::format("{} is not known; {} are", name, names_of_elements(Format::abaqus)));
+}
+
+/// An element as it stands in the file: its number, then its nodes.
+struct ElementRowOfKeyword {
+  const KeywordRow* row;  ///< the last one of it
+  std::vector<std::int64_t> numbers;
 };
 
-const std::unordered_map<std::string, AbaqusType>& abaqus_types()
+/// An element goes over several lines where one ends with a comma, or is full.
+std::vector<ElementRowOfKeyword> elements_in(const Keyword& keyword)
 {
-  static const std::unordered_map<std::string, AbaqusType> all{
-      {"S3", {Shape::triangle, 3}},      {"S3R", {Shape::triangle, 3}},
-      {"S4", {Shape::quadrilateral, 4}}, {"S4R", {Shape::quadrilateral, 4}},
-      {"S6", {Shape::triangle, 6}},      {"STRI65", {Shape::triangle, 6}},
-      {"S8", {Shape::quadrilateral, 8}}, {"S8R", {Shape::quadrilateral, 8}},
-      {"B31", {Shape::line, 2}},         {"B32", {Shape::line, 3}}};
+  constexpr std::size_t full = 16;
+  const std::size_t n_expected = 1 + type_of_elements(keyword).n_nodes;
+  std::vector<ElementRowOfKeyword> all;
+  bool goes_on = false;
+  for (const KeywordRow& row : keyword.rows) {
+    if (!goes_on) all.push_back({.row = &row, .numbers = {}});
+    ElementRowOfKeyword& element = all.back();
+    element.row = &row;
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < row.fields.size(); ++i) {
+      if (row.fields[i].empty()) continue;
+      element.numbers.push_back(keyword.integer(row, i, "number"));
+      ++n;
+    }
+    goes_on = row.fields.back().empty() || (n == full && element.numbers.size() < n_expected);
+    if (goes_on || element.numbers.size() == n_expected) continue;
+    keyword.refuse(row, fmt::format("{} numbers instead of that of the element and of {} nodes",
+                                    element.numbers.size(), n_expected - 1));
+  }
+  if (goes_on) keyword.refuse("its last element ends with a comma");
   return all;
 }
 
@@ -49,6 +83,7 @@ class AbaqusReader {
     for (const Keyword& keyword : abaqus_model(keywords_)) read(keyword);
     add_sets();
     couple();
+    note_reduced();
     note_steps();
     return std::move(deck_);
   }
@@ -85,12 +120,12 @@ class AbaqusReader {
         {"INSTANCE", &AbaqusReader::instance},
         {"BOUNDARY", &AbaqusReader::boundary}};
     // Read elsewhere, or nothing to a mesh.
-    static const std::set<std::string> known{
-        "HEADING", "NSET",    "ELSET",    "SHELL SECTION", "BEAM SECTION", "MATERIAL",
-        "ELASTIC", "DENSITY", "COUPLING", "KINEMATIC",     "DISTRIBUTING", "PREPRINT"};
+    static const std::set<std::string> known{"HEADING",  "NSET",        "ELSET",    "MATERIAL",
+                                             "ELASTIC",  "DENSITY",     "COUPLING", "KINEMATIC",
+                                             "PREPRINT", "DISTRIBUTING"};
     const auto reader = readers.find(keyword.name);
     if (reader != readers.end()) return (this->*reader->second)(keyword);
-    if (known.contains(keyword.name)) return;
+    if (known.contains(keyword.name) || section_keywords().contains(keyword.name)) return;
     keyword.refuse("this keyword is not known; take it out if the model is the same without it");
   }
 
@@ -98,14 +133,18 @@ class AbaqusReader {
   void find_section_sets()
   {
     for (const Keyword& keyword : abaqus_model(keywords_)) {
-      if (keyword.name != "SHELL SECTION" && keyword.name != "BEAM SECTION") continue;
+      const auto of_section = section_keywords().find(keyword.name);
+      if (of_section == section_keywords().end()) continue;
       const std::string& set = keyword.parameter("ELSET");
       const auto elements = sets_.elements.find(set);
       if (elements == sets_.elements.end())
         keyword.refuse(fmt::format("there is no element set \"{}\"", set));
-      for (const std::int64_t element : elements->second)
-        if (!section_of_.emplace(element, set).second)
+      for (const std::int64_t element : elements->second) {
+        const SectionOfSet section{
+            .set = set, .keyword = &keyword, .dimension = of_section->second};
+        if (!section_of_.emplace(element, section).second)
           keyword.refuse(fmt::format("element {} has two sections", element));
+      }
     }
   }
 
@@ -121,65 +160,51 @@ class AbaqusReader {
     }
   }
 
-  static const AbaqusType& type_of(const Keyword& keyword)
-  {
-    const std::string& name = keyword.parameter("TYPE");
-    const auto type = abaqus_types().find(name);
-    if (type != abaqus_types().end()) return type->second;
-    if (name.starts_with("C3D")) {
-      keyword.refuse(fmt::format(
-          "{} is a solid element; Chladni has shells and beams: mesh the mid-surface with S3, S4R "
-          "or S8R, or reduce the solids in the program that they come from",
-          name));
-    }
-    keyword.refuse(fmt::format(
-        "{} is not known; S3, S3R, S4, S4R, S6, STRI65, S8, S8R, B31 and B32 are", name));
-  }
-
   void elements(const Keyword& keyword)
   {
     keyword.expect_only({"TYPE", "ELSET"});
-    const AbaqusType& type = type_of(keyword);
-    std::vector<std::int64_t> numbers;
-    for (const KeywordRow& row : keyword.rows) {
-      for (std::size_t i = 0; i < row.fields.size(); ++i)
-        if (!row.fields[i].empty()) numbers.push_back(keyword.integer(row, i, "number"));
-      if (row.fields.back().empty()) continue;  // goes on
-      if (numbers.size() != type.n_nodes + 1) {
-        keyword.refuse(row, fmt::format("{} numbers instead of that of the element and of {} nodes",
-                                        numbers.size(), type.n_nodes));
-      }
-      add_element(keyword, row, type, numbers);
-      numbers.clear();
-    }
-    if (!numbers.empty()) keyword.refuse("its last element ends with a comma");
+    const FileElement& type = type_of_elements(keyword);
+    const std::vector<ElementRowOfKeyword> all = elements_in(keyword);
+    for (const ElementRowOfKeyword& element : all)
+      add_element(keyword, *element.row, type, element.numbers);
+    if (type.use == ElementUse::reduced) n_reduced_[keyword.parameter("TYPE")] += all.size();
   }
 
-  void add_element(const Keyword& keyword, const KeywordRow& row, const AbaqusType& type,
+  void add_element(const Keyword& keyword, const KeywordRow& row, const FileElement& type,
                    const std::vector<std::int64_t>& numbers)
   {
     const std::int64_t number = numbers.front();
-    const std::vector<std::int64_t> nodes(numbers.begin() + 1, numbers.end());
-    if (!nodes_of_.emplace(number, nodes).second)
+    if (!place_of_.emplace(number, deck_.elements.size()).second)
       keyword.refuse(row, fmt::format("element {} is there twice", number));
     const auto section = section_of_.find(number);
-    const std::string name = section != section_of_.end() ? section->second
+    const std::string name = section != section_of_.end() ? section->second.set
                              : keyword.has("ELSET")       ? keyword.parameter("ELSET")
                                                           : "ELEMENTS";
-    const bool is_line = type.shape == Shape::line;
-    const int group = group_index(deck_, name, is_line ? 1 : 2);
-    if (deck_.groups[std::size_t(group)].dimension != (is_line ? 1 : 2))
-      keyword.refuse(row, fmt::format("\"{}\" holds shells and beams", name));
-    if (is_line) {
-      deck_.elements.push_back({.number = number,
-                                .shape = Shape::line,
-                                .order = static_cast<int>(nodes.size()) - 1,
-                                .nodes = nodes,
-                                .group = group});
-    } else {
-      deck_.elements.push_back(surface_element(number, nodes, group));
+    const int d = dimension(type.shape);
+    if (section != section_of_.end() &&
+        (section->second.dimension != d || type.use == ElementUse::marking)) {
+      section->second.keyword->refuse(
+          fmt::format("\"{}\" holds element {} of the type {}, which is none of this section", name,
+                      number, keyword.parameter("TYPE")));
     }
+    const int group = group_index(deck_, name, d);
+    if (deck_.groups[std::size_t(group)].dimension != d) {
+      keyword.refuse(
+          row,
+          fmt::format("\"{}\" holds elements of two kinds, as shells and beams, or solids", name));
+    }
+    deck_.elements.push_back(
+        deck_element(type, number, {numbers.begin() + 1, numbers.end()}, group));
     deck_.elements.back().place = row.place;
+    deck_.elements.back().marks = type.use == ElementUse::marking;
+  }
+
+  void note_reduced()
+  {
+    for (const auto& [name, n] : n_reduced_) {
+      deck_.notes.push_back(fmt::format(
+          "{} elements {} are read as those of full integration and displacements alone", n, name));
+    }
   }
 
   void surface(const Keyword& keyword)
@@ -187,12 +212,14 @@ class AbaqusReader {
     keyword.expect_only({"NAME", "TYPE", "INTERNAL"});
     const std::string name = fmt::format("surface_{}", keyword.parameter("NAME"));
     const bool is_of_nodes = keyword.has("TYPE") && keyword.parameter("TYPE") == "NODE";
-    std::vector<std::int64_t>& all = deck_.groups[std::size_t(group_index(deck_, name, 0))].nodes;
+    DeckGroup& group = deck_.groups[std::size_t(group_index(deck_, name, 0))];
     for (const KeywordRow& row : keyword.rows) {
       const std::string& set = row.fields.front();
       const std::vector<std::int64_t> found =
           is_of_nodes ? abaqus_nodes(keyword, row, set, sets_) : nodes_of_faces(keyword, row);
-      all.insert(all.end(), found.begin(), found.end());
+      group.nodes.insert(group.nodes.end(), found.begin(), found.end());
+      const std::string_view side = Keyword::field(row, 1);
+      group.is_of_faces = group.is_of_faces || (side.size() == 2 && side[0] == 'S');
     }
   }
 
@@ -207,40 +234,66 @@ class AbaqusReader {
     return set->second;
   }
 
-  /// The nodes of shells whose one side or other is meant, or one of whose edges, E1 and so on.
+  /// The nodes of faces S1 to S6 of solids, of shells of which one side or other is meant, or of an
+  /// edge of these, E1 to E4.
   std::vector<std::int64_t> nodes_of_faces(const Keyword& keyword, const KeywordRow& row) const
   {
     const std::string_view side = Keyword::field(row, 1);
-    const bool is_edge = side.size() == 2 && side[0] == 'E' && side[1] >= '1' && side[1] <= '4';
-    if (!side.empty() && side != "SPOS" && side != "SNEG" && !is_edge) {
-      keyword.refuse(row, fmt::format("{}: only sides of shells, SPOS or SNEG, and their edges, E1 "
-                                      "to E4, are known",
-                                      side));
+    const bool is_part = side.size() == 2 && (side[0] == 'E' || side[0] == 'S') && side[1] >= '1' &&
+                         side[1] <= (side[0] == 'E' ? '4' : '6');
+    if (!side.empty() && side != "SPOS" && side != "SNEG" && !is_part) {
+      keyword.refuse(row,
+                     fmt::format("{}: only faces of solids, S1 to S6, sides of shells, SPOS or "
+                                 "SNEG, and their edges, E1 to E4, are known",
+                                 side));
     }
     std::vector<std::int64_t> nodes;
-    for (const std::int64_t element : elements_of(keyword, row)) {
-      const auto found = nodes_of_.find(element);
-      if (found == nodes_of_.end())
-        keyword.refuse(row, fmt::format("there is no element {}", element));
-      const std::vector<std::int64_t> of_edge =
-          is_edge ? nodes_of_edge(found->second, std::size_t(side[1] - '1')) : found->second;
-      if (of_edge.empty())
-        keyword.refuse(row, fmt::format("element {} has no edge {}", element, side));
-      nodes.insert(nodes.end(), of_edge.begin(), of_edge.end());
+    for (const std::int64_t number : elements_of(keyword, row)) {
+      const auto found = place_of_.find(number);
+      if (found == place_of_.end())
+        keyword.refuse(row, fmt::format("there is no element {}", number));
+      const DeckElement& element = deck_.elements[found->second];
+      const std::vector<std::int64_t> of_part = part_of(element, is_part ? side : "");
+      if (of_part.empty()) {
+        keyword.refuse(row,
+                       is_solid(element.shape) && side.empty()
+                           ? fmt::format("element {} is a solid; name its face, S1 to S6", number)
+                           : fmt::format("element {} has no {} {}", number,
+                                         side.starts_with('E') ? "edge" : "face", side));
+      }
+      std::ranges::copy_if(of_part, std::back_inserter(nodes),
+                           [](std::int64_t node) { return node != 0; });
     }
     return nodes;
   }
 
-  /// @param nodes  of a shell, corners first, then the middles of the edges
-  static std::vector<std::int64_t> nodes_of_edge(const std::vector<std::int64_t>& nodes,
-                                                 std::size_t edge)
+  /// The nodes of a face or an edge; empty where an element has none of this name.
+  /// @param side  "S1", "E1" or, of a whole shell, ""
+  static std::vector<std::int64_t> part_of(const DeckElement& element, std::string_view side)
   {
-    const bool has_middles = nodes.size() > 4;
-    const std::size_t n_corners = has_middles ? nodes.size() / 2 : nodes.size();
-    if (edge >= n_corners) return {};
-    std::vector<std::int64_t> found{nodes[edge], nodes[(edge + 1) % n_corners]};
-    if (has_middles) found.push_back(nodes[n_corners + edge]);
-    return found;
+    std::vector<std::vector<int>> parts;
+    if (side.empty()) {
+      if (!is_solid(element.shape)) return element.nodes;
+      return {};
+    }
+    if (side[0] == 'S' && is_solid(element.shape))
+      parts = solid_faces(element.shape, element.order);
+    if (side[0] == 'E' && is_surface(element.shape))
+      parts = edges_around(element.shape, element.order);
+    const auto i = std::size_t(side[1] - '1');
+    if (i >= parts.size()) return {};
+    std::vector<std::int64_t> nodes;
+    for (const int place : parts[i]) nodes.push_back(element.nodes[std::size_t(place)]);
+    return nodes;
+  }
+
+  /// The places of the edges of a shell from its first corner on: places_of_edges goes by rows and
+  /// columns.
+  static std::vector<std::vector<int>> edges_around(Shape shape, int order)
+  {
+    const std::vector<std::vector<int>> edges = places_of_edges(shape, order);
+    if (shape == Shape::triangle) return {edges[0], edges[2], edges[1]};
+    return {edges[0], edges[2], edges[3], edges[1]};
   }
 
   /// Couplings, whose kind stands in the keyword behind.
@@ -309,13 +362,14 @@ class AbaqusReader {
     for (const auto& [name, numbers] : sets_.elements) {
       const auto is_used = std::ranges::find(deck_.groups, name, &DeckGroup::name);
       if (is_used != deck_.groups.end() && is_used->dimension > 0) continue;
-      std::vector<std::int64_t>& nodes =
-          deck_.groups[std::size_t(group_index(deck_, name, 0))].nodes;
-      for (const std::int64_t element : numbers) {
-        const auto found = nodes_of_.find(element);
-        if (found == nodes_of_.end())
-          throw Error(fmt::format("element set \"{}\": there is no element {}", name, element));
-        nodes.insert(nodes.end(), found->second.begin(), found->second.end());
+      DeckGroup& group = deck_.groups[std::size_t(group_index(deck_, name, 0))];
+      group.elements = numbers;
+      for (const std::int64_t number : numbers) {
+        const auto found = place_of_.find(number);
+        if (found == place_of_.end())
+          throw Error(fmt::format("element set \"{}\": there is no element {}", name, number));
+        std::ranges::copy_if(deck_.elements[found->second].nodes, std::back_inserter(group.nodes),
+                             [](std::int64_t node) { return node != 0; });
       }
     }
   }
@@ -323,8 +377,14 @@ class AbaqusReader {
   std::span<const Keyword> keywords_;
   AbaqusSets sets_;
   Deck deck_;
-  std::unordered_map<std::int64_t, std::string> section_of_;
-  std::unordered_map<std::int64_t, std::vector<std::int64_t>> nodes_of_;  ///< by element
+  struct SectionOfSet {
+    std::string set;
+    const Keyword* keyword;
+    int dimension;
+  };
+  std::unordered_map<std::int64_t, SectionOfSet> section_of_;  ///< by element
+  std::unordered_map<std::int64_t, std::size_t> place_of_;     ///< of elements in the deck
+  std::map<std::string, std::size_t> n_reduced_;               ///< elements by type
 };
 
 }  // namespace
@@ -400,6 +460,7 @@ class AbaqusDeclarer {
       if (keyword.name == "MATERIAL") material(i);
       if (keyword.name == "SHELL SECTION") shell(keyword);
       if (keyword.name == "BEAM SECTION") beam(keyword);
+      if (keyword.name == "SOLID SECTION") solid(keyword);
     }
     check_densities();
     declare_couplings(deck, units_, holders_, all_);
@@ -407,11 +468,9 @@ class AbaqusDeclarer {
       if (keyword.name == "BOUNDARY") boundary(keyword);
     for (std::size_t g = 0; g < deck.groups.size(); ++g) {
       const DeckGroup& group = deck.groups[g];
-      const bool is_there =
-          std::ranges::find(all_.shells, group.name, &DeclaredShell::group) != all_.shells.end() ||
-          std::ranges::find(all_.beams, group.name, &DeclaredBeam::group) != all_.beams.end();
-      if (group.dimension == 0 || is_there) continue;
+      if (group.dimension == 0 || all_.has_section(group.name)) continue;
       const auto element = std::ranges::find(deck.elements, int(g), &DeckElement::group);
+      if (element->marks) continue;
       throw Error(fmt::format("{}: *ELEMENT: element {} is of \"{}\", which no section names",
                               element->place, element->number, group.name));
     }
@@ -461,8 +520,7 @@ class AbaqusDeclarer {
   {
     std::erase_if(all_.materials, [&](const DeclaredMaterial& material) {
       if (material.density > 0.0) return false;
-      const auto is_of_it = [&](const auto& section) { return section.material == material.name; };
-      if (std::ranges::any_of(all_.shells, is_of_it) || std::ranges::any_of(all_.beams, is_of_it)) {
+      if (all_.uses(material.name)) {
         keyword_of_.at(material.name)
             ->refuse(fmt::format("{} has no *DENSITY, without which there are no natural "
                                  "frequencies; give it one, "
@@ -489,6 +547,13 @@ class AbaqusDeclarer {
                            .material = keyword.parameter("MATERIAL"),
                            .thickness = thickness,
                            .offset = of_thickness == 0.0 ? 0.0 : -of_thickness * thickness});
+  }
+
+  void solid(const Keyword& keyword)
+  {
+    keyword.expect_only({"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS"});
+    all_.solids.push_back(
+        {.group = keyword.parameter("ELSET"), .material = keyword.parameter("MATERIAL")});
   }
 
   void beam(const Keyword& keyword)
@@ -600,15 +665,14 @@ void add_set_row(const Keyword& keyword, const KeywordRow& row, const std::strin
   set.erase(std::unique(set.begin(), set.end()), set.end());
 }
 
-/// The numbers of the nodes or elements that a keyword defines; an element goes over several lines
-/// where one ends with a comma.
+/// The numbers of the nodes or elements that a keyword defines.
 void add_defined(const Keyword& keyword, std::vector<std::int64_t>& set)
 {
-  bool goes_on = false;
-  for (const KeywordRow& row : keyword.rows) {
-    if (!goes_on) set.push_back(keyword.integer(row, 0, "number"));
-    goes_on = keyword.name == "ELEMENT" && row.fields.back().empty();
-  }
+  if (keyword.name == "ELEMENT")
+    for (const ElementRowOfKeyword& element : elements_in(keyword))
+      set.push_back(element.numbers.front());
+  else
+    for (const KeywordRow& row : keyword.rows) set.push_back(keyword.integer(row, 0, "number"));
 }
 
 }  // namespace

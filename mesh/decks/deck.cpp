@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "common/error.hpp"
+#include "mesh/element_types.hpp"
 #include "mesh/mesh_repair.hpp"
 
 namespace chladni::mesh {
@@ -49,11 +50,8 @@ std::vector<int> nodes_of(const DeckElement& element, const NodeIndex& index)
   std::vector<int> nodes;
   for (const std::int64_t number : element.nodes) {
     const auto found = index.find(number);
-    if (number != 0 && found == index.end()) {
-      throw Error(fmt::format("{}element {}: its node {} is not there",
-                              element.place.empty() ? "" : element.place + ": ", element.number,
-                              number));
-    }
+    if (number != 0 && found == index.end())
+      throw Error(fmt::format("{}: its node {} is not there", name_of(element), number));
     nodes.push_back(number == 0 ? -1 : found->second);
   }
   return nodes;
@@ -67,33 +65,63 @@ void add_element(Mesh& mesh, const DeckElement& element, const std::vector<int>&
   block.nodes.insert(block.nodes.end(), nodes.begin(), nodes.end());
 }
 
-void add_elements(Mesh& mesh, const Deck& deck, const NodeIndex& index,
-                  const std::vector<std::string>& line_groups)
+/// What becomes of the elements of a deck.
+enum class Content { solids, shells_and_beams };
+
+bool has_name(const std::vector<std::string>& names, const std::string& name)
 {
-  std::vector<int> n_left_out(deck.groups.size(), 0);
-  for (const DeckElement& element : deck.elements) {
-    const std::vector<int> nodes = nodes_of(element, index);
-    if (element.group < 0) {
-      add_element(mesh, element, nodes);
-      continue;
-    }
-    Group& group = mesh.groups[static_cast<std::size_t>(element.group)];
-    std::ranges::copy_if(nodes, std::back_inserter(group.nodes),
-                         [](int node) { return node >= 0; });
-    const bool is_wanted = element.shape != Shape::line ||
-                           std::ranges::find(line_groups, group.name) != line_groups.end();
-    if (!is_wanted) {
-      ++n_left_out[static_cast<std::size_t>(element.group)];
-      continue;
-    }
-    add_element(mesh, element, nodes);
-  }
-  for (std::size_t i = 0; i < n_left_out.size(); ++i) {
-    if (n_left_out[i] == 0) continue;
+  return std::ranges::find(names, name) != names.end();
+}
+
+bool is_wanted(const DeckElement& element, const std::string& group, Content content,
+               const MeshOptions& options)
+{
+  if (element.marks) return false;
+  if (content == Content::solids) return is_solid(element.shape);
+  return is_surface(element.shape) ||
+         (element.shape == Shape::line && has_name(options.line_groups, group));
+}
+
+void tell_what_is_left_out(Mesh& mesh, const std::vector<std::array<int, 4>>& n_left_out,
+                           Content content)
+{
+  std::array<int, 4> n{};
+  for (std::size_t g = 0; g < n_left_out.size(); ++g) {
+    for (std::size_t d = 0; d < n.size(); ++d) n[d] += n_left_out[g][d];
+    if (n_left_out[g][1] == 0 || content == Content::solids) continue;
     mesh.notes.push_back(fmt::format(
         "{} line elements of \"{}\" became a set of nodes, since no section of type beam names it",
-        n_left_out[i], mesh.groups[i].name));
+        n_left_out[g][1], mesh.groups[g].name));
   }
+  if (content == Content::solids && n[1] + n[2] > 0) {
+    mesh.notes.push_back(fmt::format(
+        "{} surface and {} line elements beside the solids are sets of nodes", n[2], n[1]));
+  }
+  if (n[3] > 0) {
+    mesh.notes.push_back(fmt::format(
+        "{} solid elements are left out, since no section of type solid names them", n[3]));
+  }
+}
+
+void add_elements(Mesh& mesh, const Deck& deck, const NodeIndex& index, Content content,
+                  const MeshOptions& options)
+{
+  std::vector<std::array<int, 4>> n_left_out(deck.groups.size() + 1);  // by dimension
+  for (const DeckElement& element : deck.elements) {
+    const std::vector<int> nodes = nodes_of(element, index);
+    const bool has_group = element.group >= 0;
+    const auto g = has_group ? std::size_t(element.group) : deck.groups.size();
+    if (has_group) {
+      std::ranges::copy_if(nodes, std::back_inserter(mesh.groups[g].nodes),
+                           [](int node) { return node >= 0; });
+    }
+    if (is_wanted(element, has_group ? mesh.groups[g].name : "", content, options))
+      add_element(mesh, element, nodes);
+    else
+      ++n_left_out[g][std::size_t(dimension(element.shape))];
+  }
+  n_left_out.pop_back();
+  tell_what_is_left_out(mesh, n_left_out, content);
 }
 
 void add_groups_of_nodes(Mesh& mesh, const Deck& deck, const NodeIndex& index)
@@ -110,21 +138,6 @@ void add_groups_of_nodes(Mesh& mesh, const Deck& deck, const NodeIndex& index)
     }
     std::ranges::sort(nodes);
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  }
-}
-
-/// Lattice place of each node of a surface, corners first, then the middles of the edges.
-std::vector<int> lattice_places(std::size_t n_nodes)
-{
-  switch (n_nodes) {
-    case 3:
-      return {0, 1, 2};
-    case 4:
-      return {0, 1, 3, 2};
-    case 6:
-      return {0, 2, 5, 1, 4, 3};
-    default:
-      return {0, 2, 8, 6, 1, 5, 7, 3};
   }
 }
 
@@ -169,6 +182,37 @@ void treat_doubled_elements(Mesh& mesh, const Deck& deck, const MeshOptions& opt
   if (options.doubled_elements == Doubled::merge) merge_doubled_elements(mesh, {});
 }
 
+/// Two nodes, the lower first.
+using Ends = std::pair<std::int64_t, std::int64_t>;
+
+Ends ends_of(std::int64_t a, std::int64_t b)
+{
+  return std::minmax({a, b});
+}
+
+/// The edges of the skin of the solids; of surfaces none.
+std::set<Ends> edges_of_skin(const Deck& deck)
+{
+  std::map<std::set<std::int64_t>, std::pair<int, std::vector<std::int64_t>>> faces;
+  for (const DeckElement& element : deck.elements) {
+    if (!is_solid(element.shape)) continue;
+    for (const std::vector<int>& places : solid_faces(element.shape, 1)) {
+      std::vector<std::int64_t> corners;
+      for (const int place : places) corners.push_back(element.nodes[std::size_t(place)]);
+      auto& [n, around] = faces[{corners.begin(), corners.end()}];
+      ++n;
+      around = std::move(corners);
+    }
+  }
+  std::set<Ends> edges;
+  for (const auto& [corners, face] : faces) {
+    const auto& [n, around] = face;
+    for (std::size_t i = 0; n == 1 && i < around.size(); ++i)
+      edges.insert(ends_of(around[i], around[(i + 1) % around.size()]));
+  }
+  return edges;
+}
+
 /// The middle nodes of edges by their ends.
 class Middles {
  public:
@@ -177,30 +221,39 @@ class Middles {
     if (!deck.nodes.empty()) next_ = deck.nodes.rbegin()->first + 1;
     first_ = next_;
     for (const DeckElement& element : deck.elements) {
-      for (const auto& [a, middle, b] : edges(element)) {
-        if (element.order == 1) straight_.emplace(ends(a, b), element.number);
-        if (element.order == 2 && middle != 0) middles_.emplace(ends(a, b), middle);
+      if (element.shape == Shape::line || element.order > 2) continue;
+      for (const std::vector<int>& places : places_of_edges(element.shape, element.order)) {
+        const auto node = [&](std::size_t i) { return element.nodes[std::size_t(places[i])]; };
+        const Ends ends = ends_of(node(0), node(places.size() - 1));
+        if (element.order == 1) straight_.emplace(ends, element.number);
+        if (element.order == 2 && node(1) != 0) middles_.emplace(ends, node(1));
       }
     }
   }
 
   void complete(DeckElement& element)
   {
-    if (element.order != 2 || element.shape == Shape::line) return;
-    for (const std::array<int, 3>& places : edge_places(element)) {
+    if (element.order != 2) return;
+    for (const std::vector<int>& places : places_of_edges(element.shape, 2)) {
       std::int64_t& middle = element.nodes[std::size_t(places[1])];
       if (middle == 0) middle = middle_of(element, places);
     }
   }
 
-  /// An added node is in the sets that have both ends of its edge: it is held where they are.
+  /// An added node is in the sets that have both ends of its edge: it is held where they are. An
+  /// edge inside of solids may join nodes of two faces.
   void join_sets()
   {
+    const bool has_solids = std::ranges::any_of(
+        deck_.elements, [](const DeckElement& element) { return is_solid(element.shape); });
+    const std::set<Ends> skin = edges_of_skin(deck_);
     for (DeckGroup& group : deck_.groups) {
       const std::set<std::int64_t> members(group.nodes.begin(), group.nodes.end());
-      for (const auto& [node, ends] : added_)
-        if (members.contains(ends.first) && members.contains(ends.second))
+      for (const auto& [node, ends] : added_) {
+        if (members.contains(ends.first) && members.contains(ends.second) &&
+            (!has_solids || skin.contains(ends)))
           group.nodes.push_back(node);
+      }
     }
   }
 
@@ -208,54 +261,30 @@ class Middles {
   std::int64_t first() const { return first_; }
 
  private:
-  using Ends = std::pair<std::int64_t, std::int64_t>;
-  static Ends ends(std::int64_t a, std::int64_t b) { return std::minmax({a, b}); }
   struct Added {
     std::int64_t node;
     Ends ends;
   };
 
-  /// Places of the nodes of each edge in the lattice, middle ones between the ends.
-  static std::vector<std::array<int, 3>> edge_places(const DeckElement& element)
-  {
-    if (element.shape == Shape::quadrilateral) {
-      if (element.order == 1) return {{0, 0, 1}, {1, 1, 3}, {3, 3, 2}, {2, 2, 0}};
-      return {{0, 1, 2}, {2, 5, 8}, {8, 7, 6}, {6, 3, 0}};
-    }
-    if (element.order == 1) return {{0, 0, 1}, {1, 1, 2}, {2, 2, 0}};
-    return {{0, 1, 2}, {2, 4, 5}, {5, 3, 0}};
-  }
-
-  static std::vector<std::array<std::int64_t, 3>> edges(const DeckElement& element)
-  {
-    std::vector<std::array<std::int64_t, 3>> found;
-    if (element.shape == Shape::line || element.order > 2) return found;
-    for (const auto& [a, middle, b] : edge_places(element)) {
-      found.push_back({element.nodes[std::size_t(a)], element.nodes[std::size_t(middle)],
-                       element.nodes[std::size_t(b)]});
-    }
-    return found;
-  }
-
-  std::int64_t middle_of(const DeckElement& element, const std::array<int, 3>& places)
+  std::int64_t middle_of(const DeckElement& element, const std::vector<int>& places)
   {
     const std::int64_t a = element.nodes[std::size_t(places[0])],
                        b = element.nodes[std::size_t(places[2])];
-    if (const auto other = straight_.find(ends(a, b)); other != straight_.end()) {
-      throw Error(fmt::format(
-          "{}: element {} has no node between {} and {}, where element {} of order 1 begins: an "
-          "edge has one order here; give all elements the same",
-          element.place, element.number, a, b, other->second));
+    if (const auto other = straight_.find(ends_of(a, b)); other != straight_.end()) {
+      throw Error(
+          fmt::format("{} has no node between {} and {}, where element {} of order 1 begins: an "
+                      "edge has one order here; give all elements the same",
+                      name_of(element), a, b, other->second));
     }
-    const auto known = middles_.find(ends(a, b));
+    const auto known = middles_.find(ends_of(a, b));
     if (known != middles_.end()) return known->second;
     const auto from = deck_.nodes.find(a), to = deck_.nodes.find(b);
     if (from == deck_.nodes.end() || to == deck_.nodes.end()) return 0;  // `mesh_of` names it
     std::array<double, 3> x{};
     for (std::size_t c = 0; c < 3; ++c) x[c] = 0.5 * (from->second[c] + to->second[c]);
     deck_.nodes.emplace(next_, x);
-    middles_.emplace(ends(a, b), next_);
-    added_.push_back({.node = next_, .ends = ends(a, b)});
+    middles_.emplace(ends_of(a, b), next_);
+    added_.push_back({.node = next_, .ends = ends_of(a, b)});
     return next_++;
   }
 
@@ -264,6 +293,146 @@ class Middles {
   std::vector<Added> added_;
   std::int64_t next_ = 1, first_ = 1;
 };
+
+bool lacks_middles(const DeckElement& element)
+{
+  const auto n = std::ranges::count(element.nodes, 0);
+  return element.order == 2 && n > (element.shape == Shape::quadrilateral ? 1 : 0);
+}
+
+/// @return the number of nodes that were added, and that of the first one
+std::pair<std::int64_t, std::int64_t> completed(Deck& deck)
+{
+  Middles middles(deck);
+  for (DeckElement& element : deck.elements) middles.complete(element);
+  if (middles.n_added() > 0) middles.join_sets();
+  return {middles.n_added(), middles.first()};
+}
+
+/// The same corners, with 0 for the nodes in the middle of edges.
+void raise(DeckElement& element)
+{
+  const auto block = [&](int order) {
+    return ElementBlock{.shape = element.shape,
+                        .order = order,
+                        .nodes_per_element = n_nodes_of(element.shape, order),
+                        .numbers = {},
+                        .nodes = {},
+                        .group = {}};
+  };
+  const std::vector<int> before = corner_places(block(1)), after = corner_places(block(2));
+  std::vector<std::int64_t> nodes(std::size_t(block(2).nodes_per_element), 0);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    nodes[std::size_t(after[i])] = element.nodes[std::size_t(before[i])];
+  element.nodes = std::move(nodes);
+  element.order = 2;
+}
+
+/// Tetrahedra and wedges with four and six nodes are far too stiff.
+void raise_linear_solids(Deck& deck)
+{
+  const auto is_stiff = [](const DeckElement& element) {
+    return element.order == 1 &&
+           (element.shape == Shape::tetrahedron || element.shape == Shape::wedge);
+  };
+  if (std::ranges::none_of(deck.elements, is_stiff)) return;
+  for (DeckElement& element : deck.elements)
+    if (element.order == 1) raise(element);
+  completed(deck);
+  deck.notes.emplace_back(solids_are_raised);
+}
+
+void check_solid(const Deck& deck, const DeckElement& element)
+{
+  std::vector<std::int64_t> nodes = element.nodes;
+  std::erase(nodes, 0);
+  std::ranges::sort(nodes);
+  const auto twice = std::ranges::adjacent_find(nodes);
+  if (twice != nodes.end()) {
+    throw Error(
+        fmt::format("{} has the node {} twice; write a collapsed element as the wedge or "
+                    "tetrahedron that it is",
+                    name_of(element), *twice));
+  }
+  if (orientation(element, deck.nodes) >= 0.0) return;  // 0: what is flat is named by its quality
+  throw Error(
+      fmt::format("{} is inside out: seen from the opposite corners, its first {} nodes must go "
+                  "round counter-clockwise; list them the other way round",
+                  name_of(element), element.shape == Shape::hexahedron ? 4 : 3));
+}
+
+/// An edge with a node in its middle beside one without would gape.
+void refuse_two_orders(const Deck& deck)
+{
+  std::map<Ends, const DeckElement*> straight;
+  const auto for_edges = [&](int order, const auto& visit) {
+    for (const DeckElement& element : deck.elements) {
+      if (!is_solid(element.shape) || element.order != order) continue;
+      for (const std::vector<int>& places : places_of_edges(element.shape, order)) {
+        visit(element, ends_of(element.nodes[std::size_t(places.front())],
+                               element.nodes[std::size_t(places.back())]));
+      }
+    }
+  };
+  for_edges(
+      1, [&](const DeckElement& element, const Ends& ends) { straight.emplace(ends, &element); });
+  if (straight.empty()) return;
+  for_edges(2, [&](const DeckElement& element, const Ends& ends) {
+    const auto other = straight.find(ends);
+    if (other == straight.end()) return;
+    throw Error(
+        fmt::format("{} has a node between {} and {}, and {} has none: an edge has one "
+                    "order here; give all elements the same",
+                    name_of(element), ends.first, ends.second, name_of(*other->second)));
+  });
+}
+
+/// Elements that a section of the scene takes by a set of them.
+void take_sets(Deck& deck, const MeshOptions& options)
+{
+  std::unordered_map<std::int64_t, std::size_t> place_of;
+  std::unordered_map<std::int64_t, int> taken;
+  for (std::size_t g = 0; g < deck.groups.size(); ++g) {
+    DeckGroup& group = deck.groups[g];
+    const auto is_named = [&](const std::vector<std::string>& names) {
+      return has_name(names, group.name);
+    };
+    if (group.elements.empty() ||
+        !(is_named(options.solid_groups) || is_named(options.shell_groups) ||
+          is_named(options.line_groups)))
+      continue;
+    if (place_of.empty())
+      for (std::size_t e = 0; e < deck.elements.size(); ++e)
+        place_of.emplace(deck.elements[e].number, e);
+    for (const std::int64_t number : group.elements) {
+      const auto found = place_of.find(number);
+      if (found == place_of.end()) continue;
+      const auto [other, is_new] = taken.emplace(number, int(g));
+      if (!is_new) {
+        throw Error(
+            fmt::format("element {} is in the sets \"{}\" and \"{}\", which have a section "
+                        "each; take it out of one",
+                        number, deck.groups[std::size_t(other->second)].name, group.name));
+      }
+      deck.elements[found->second].group = int(g);
+      group.dimension = dimension(deck.elements[found->second].shape);
+    }
+  }
+}
+
+Content content_of(const Deck& deck, const MeshOptions& options)
+{
+  const bool has_solids = std::ranges::any_of(
+      deck.elements, [](const DeckElement& element) { return is_solid(element.shape); });
+  if (!options.solid_groups.empty() && !has_solids) {
+    throw Error(fmt::format(
+        "it has no solid elements, of which the section of \"{}\" is; take type = \"shell\"",
+        options.solid_groups.front()));
+  }
+  const bool is_named = !options.solid_groups.empty() ||
+                        (options.shell_groups.empty() && options.line_groups.empty());
+  return has_solids && is_named ? Content::solids : Content::shells_and_beams;
+}
 
 /// Whether all nodes of a set are reference nodes, which are no nodes of the mesh.
 bool is_of_references(const Deck& deck, const DeckGroup& group)
@@ -299,50 +468,72 @@ int group_index(Deck& deck, const std::string& name, int dimension)
   return static_cast<int>(deck.groups.size()) - 1;
 }
 
-DeckElement surface_element(std::int64_t number, const std::vector<std::int64_t>& nodes, int group)
+std::string name_of(const DeckElement& element)
 {
-  const bool is_triangle = nodes.size() == 3 || nodes.size() == 6;
-  const int order = nodes.size() > 4 ? 2 : 1;
-  const std::vector<int> places = lattice_places(nodes.size());
-  const std::size_t n_lattice = nodes.size() == 8 ? 9 : nodes.size();
-  DeckElement element{.number = number,
-                      .shape = is_triangle ? Shape::triangle : Shape::quadrilateral,
-                      .order = order,
-                      .nodes = std::vector<std::int64_t>(n_lattice, 0),
-                      .group = group};
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    element.nodes[static_cast<std::size_t>(places[k])] = nodes[k];
-  return element;
+  return fmt::format("{}element {}", element.place.empty() ? "" : element.place + ": ",
+                     element.number);
+}
+
+double orientation(const DeckElement& element,
+                   const std::map<std::int64_t, std::array<double, 3>>& nodes)
+{
+  if (!is_solid(element.shape)) return 0.0;
+  // Opposite ends of the parent axes, between which the tangents at the centre are means.
+  std::vector<Vector> x;
+  for (int i = 0; i < n_corners(element.shape); ++i) {
+    const auto found = nodes.find(element.nodes[std::size_t(i)]);
+    if (found == nodes.end()) return 0.0;
+    x.push_back(found->second);
+  }
+  std::array<Vector, 3> tangents{};
+  const auto add = [&](std::size_t axis, std::size_t from, std::size_t to) {
+    for (std::size_t c = 0; c < 3; ++c) tangents[axis][c] += x[to][c] - x[from][c];
+  };
+  const std::size_t above = x.size() == 4 ? 3 : x.size() / 2;
+  const bool is_hexahedron = element.shape == Shape::hexahedron;
+  for (std::size_t bottom = 0; bottom + above <= x.size(); bottom += above) {
+    add(0, bottom, bottom + 1);
+    add(1, bottom, bottom + (is_hexahedron ? 3 : 2));
+    if (!is_hexahedron) continue;
+    add(0, bottom + 3, bottom + 2);
+    add(1, bottom + 1, bottom + 2);
+  }
+  for (std::size_t i = 0; i + above < x.size(); ++i) add(2, i, i + above);
+  return dot(cross(tangents[0], tangents[1]), tangents[2]);
 }
 
 void add_missing_middles(Deck& deck)
 {
-  const auto lacks_middles = [](const DeckElement& element) {
-    const auto n = std::ranges::count(element.nodes, 0);
-    return element.order == 2 && n > (element.shape == Shape::quadrilateral ? 1 : 0);
-  };
   if (std::ranges::none_of(deck.elements, lacks_middles)) return;
-  Middles middles(deck);
-  for (DeckElement& element : deck.elements) middles.complete(element);
-  if (middles.n_added() == 0) return;
-  middles.join_sets();
+  const auto [n, first] = completed(deck);
+  if (n == 0) return;
   deck.notes.push_back(fmt::format(
       "{} middle nodes that the deck leaves out stand on straight edges, numbered from {}; they "
       "are in the sets that have both ends of their edge",
-      middles.n_added(), middles.first()));
+      n, first));
 }
 
-Mesh mesh_of(const Deck& deck, const MeshOptions& options)
+Mesh mesh_of(Deck deck, const MeshOptions& options)
 {
+  take_sets(deck, options);
+  const Content content = content_of(deck, options);
+  if (content == Content::solids) {
+    for (const DeckElement& element : deck.elements)
+      if (is_solid(element.shape)) check_solid(deck, element);
+    raise_linear_solids(deck);
+    refuse_two_orders(deck);
+  }
   Mesh mesh;
   const NodeIndex index = add_nodes(mesh, deck);
-  for (const DeckGroup& group : deck.groups)
-    mesh.groups.push_back({.name = group.name, .dimension = group.dimension, .nodes = {}});
-  add_elements(mesh, deck, index, options.line_groups);
+  for (const DeckGroup& group : deck.groups) {
+    mesh.groups.push_back(
+        {.name = group.name, .dimension = group.is_of_faces ? 2 : group.dimension, .nodes = {}});
+  }
+  add_elements(mesh, deck, index, content, options);
   add_groups_of_nodes(mesh, deck, index);
   if (mesh.blocks.empty()) {
     throw Error(
-        "it has neither shell elements nor beams of the group of a beam section; see "
+        "it has neither solids nor shells, nor beams of the group of a beam section; see "
         "docs/how-to/meshes.md for what can be read");
   }
   mesh.notes.insert(mesh.notes.begin(), deck.notes.begin(), deck.notes.end());
@@ -437,6 +628,20 @@ Holders::Holders(const Deck& deck)
   for (const DeckCoupling& coupling : deck.couplings)
     if (!coupling.averages)
       followers_.insert(nodes_of(deck, coupling).begin(), nodes_of(deck, coupling).end());
+}
+
+bool Declarations::has_section(const std::string& group) const
+{
+  const auto is_of_it = [&](const auto& section) { return section.group == group; };
+  return std::ranges::any_of(shells, is_of_it) || std::ranges::any_of(beams, is_of_it) ||
+         std::ranges::any_of(solids, is_of_it);
+}
+
+bool Declarations::uses(const std::string& material) const
+{
+  const auto is_of_it = [&](const auto& section) { return section.material == material; };
+  return std::ranges::any_of(shells, is_of_it) || std::ranges::any_of(beams, is_of_it) ||
+         std::ranges::any_of(solids, is_of_it);
 }
 
 std::vector<std::int64_t> supported_nodes(const Holders& holders, const std::string& entry,

@@ -17,16 +17,30 @@ struct DeckElement {
   std::int64_t number;
   Shape shape;
   int order;
-  std::vector<std::int64_t> nodes;  ///< in lattice order; 0 for an inner node that the file lacks
-  int group;                        ///< index into Deck::groups; -1 = none
-  std::string place = {};           ///< "line 7"; empty where the file has no lines
+  /// As in `ElementBlock`; 0 for an inner node that the file lacks.
+  std::vector<std::int64_t> nodes;
+  int group;               ///< index into Deck::groups; -1 = none
+  std::string place = {};  ///< "line 7"; empty where the file has no lines
+  bool marks = false;      ///< its nodes are a set; it is no element of the mesh
 };
+
+/// What messages call an element: "line 7: element 12".
+std::string name_of(const DeckElement& element);
+
+/// det J of a solid at its centre, by its corners: negative where the nodes go round the wrong way.
+/// @return 0 for other shapes, and where a corner is not there
+double orientation(const DeckElement& element,
+                   const std::map<std::int64_t, std::array<double, 3>>& nodes);
 
 /// A named set of nodes. For a group of elements `mesh_of` fills in the nodes.
 struct DeckGroup {
   std::string name;
   int dimension;  ///< of its elements; 0 for a set of nodes
   std::vector<std::int64_t> nodes;
+  /// Numbers of a set of elements that are of other groups, from which a section of a scene takes
+  /// them.
+  std::vector<std::int64_t> elements = {};
+  bool is_of_faces = false;  ///< a set of the nodes of faces
 };
 
 /// A reference node and the nodes that follow it as a rigid body, or whose mean it follows.
@@ -49,24 +63,22 @@ struct Deck {
 /// The index of the group of this name, which is added if missing.
 int group_index(Deck& deck, const std::string& name, int dimension);
 
-/// A surface element whose shape and order follow from its number of nodes. The nodes are given
-/// corners first, then the middles of the edges, beginning at the first edge, as in Nastran and
-/// Abaqus.
-DeckElement surface_element(std::int64_t number, const std::vector<std::int64_t>& nodes, int group);
-
 /// Gives elements of order 2 the middle nodes that they lack (0 in their places): that of a
 /// neighbour at the same edge, or else a new one in the middle of the straight edge, in the sets
 /// that have both ends of the edge, with a note.
-/// @throws chladni::Error naming an element that lacks a middle node where a surface of order 1
+/// @throws chladni::Error naming an element that lacks a middle node where an element of order 1
 ///         begins.
 void add_missing_middles(Deck& deck);
 
-/// Makes the mesh of a deck: its surfaces, and the lines of `line_groups`. Other lines become sets
-/// of nodes, and a note says so. Nodes without an element are left out, but for those of
-/// `coupled_groups`; quadrilaterals with a flat corner are split (`split_flat_corners`).
-/// @throws chladni::Error naming an element and its missing node, two elements with the same nodes
-///         unless `doubled_elements` says what becomes of them, and for a deck without elements.
-Mesh mesh_of(const Deck& deck, const MeshOptions& options);
+/// Makes the mesh of a deck: its solids, if a section names some of them, or there are some and no
+/// section names anything; else its surfaces, and the lines of `line_groups`. Other elements
+/// become sets of nodes, and a note says so. If there are tetrahedra or wedges of order 1, all
+/// solids get nodes in the middle of their edges. Nodes without an element are left out, but for
+/// those of `coupled_groups`; quadrilaterals with a flat corner are split (`split_flat_corners`).
+/// @throws chladni::Error naming an element and its missing node, a solid that is inside out or has
+///         a node twice, two elements with the same nodes unless `doubled_elements` says what
+///         becomes of them, and for a deck without elements.
+Mesh mesh_of(Deck deck, const MeshOptions& options);
 
 /// Finds by which groups and couplings a scene can hold nodes of a deck.
 class Holders {

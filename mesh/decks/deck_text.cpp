@@ -34,6 +34,18 @@ std::vector<std::string> cut_at_commas(std::string_view line)
   return words;
 }
 
+std::vector<std::string> words_of(std::string_view line)
+{
+  constexpr std::string_view blanks = " \t\r";
+  std::vector<std::string> words;
+  for (std::size_t at = line.find_first_not_of(blanks); at != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
+    words.emplace_back(line.substr(at, end - at));
+    at = line.find_first_not_of(blanks, end);
+  }
+  return words;
+}
+
 std::string refuse_included(const std::string& file)
 {
   throw Error(fmt::format("the file {} cannot be included here", file));

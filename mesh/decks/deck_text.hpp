@@ -18,6 +18,9 @@ std::string capitals(std::string text);
 /// The parts between the commas of a line, trimmed.
 std::vector<std::string> cut_at_commas(std::string_view line);
 
+/// The parts between the blanks of a line.
+std::vector<std::string> words_of(std::string_view line);
+
 /// Calls take(line, number) for each line that begins at or after the place `begin` of the text,
 /// until it returns false. Lines are numbered from the start of the text, from 1.
 void for_each_line(const std::string& text, std::size_t begin, auto&& take)

@@ -36,6 +36,11 @@ struct DeclaredBeam {
   std::optional<std::array<double, 3>> orientation = {};
 };
 
+/// The solid section of a group.
+struct DeclaredSolid {
+  std::string group, material;
+};
+
 /// The kinds of couplings of a scene that decks have.
 enum class CouplingOfDeck { rigid, averaging };
 
@@ -75,12 +80,18 @@ struct Declarations {
   std::vector<DeclaredMaterial> materials;
   std::vector<DeclaredShell> shells;
   std::vector<DeclaredBeam> beams;
+  std::vector<DeclaredSolid> solids;
   std::vector<DeclaredCoupling> couplings;
   std::vector<DeclaredSupport> supports;
   std::vector<DeclaredMass> masses;
   std::vector<DeclaredSpring> springs;
   /// For the user: what is represented by something else in a scene.
   std::vector<std::string> notes;
+
+  /// Whether a section is of the group.
+  bool has_section(const std::string& group) const;
+  /// Whether a section is of the material.
+  bool uses(const std::string& material) const;
 };
 
 /// The units of length and force of a deck in SI. Its unit of mass follows from that of force and

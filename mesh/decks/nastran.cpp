@@ -13,6 +13,7 @@
 
 #include "common/error.hpp"
 #include "mesh/decks/deck.hpp"
+#include "mesh/decks/file_elements.hpp"
 #include "mesh/mesh.hpp"
 
 namespace chladni::mesh {
@@ -69,11 +70,13 @@ class NastranReader {
                 {"CONM2", &NastranReader::mass},   {"CELAS1", &NastranReader::spring},
                 {"CELAS2", &NastranReader::spring}};
     for (const char* name : {"RBE2", "RBE3", "RBAR"}) all.emplace(name, &NastranReader::rigid);
+    for (const char* name : {"CTETRA", "CPENTA", "CHEXA"}) all.emplace(name, &NastranReader::solid);
     for (const char* name : {"CQUAD4", "CTRIA3"}) all.emplace(name, &NastranReader::flat_shell);
     for (const char* name : {"CQUAD8", "CTRIA6"}) all.emplace(name, &NastranReader::curved_shell);
     for (const char* name : {"CBAR", "CBEAM"}) all.emplace(name, &NastranReader::beam);
-    for (const char* name : {"CORD2R", "CORD2C", "CORD2S", "MAT1", "PSHELL", "PBAR", "PBARL",
-                             "PBEAM", "PELAS", "CASE", "GRDSET", "SPCADD", "MPC", "MPCADD"})
+    for (const char* name :
+         {"CORD2R", "CORD2C", "CORD2S", "MAT1", "PSHELL", "PBAR", "PBARL", "PBEAM", "PSOLID",
+          "PELAS", "CASE", "GRDSET", "SPCADD", "MPC", "MPCADD"})
       all.emplace(name, [](NastranReader&, const Card&) {});
     for (const char* name : {"EIGR", "EIGRL", "FORCE", "MOMENT", "PLOAD", "PLOAD2", "PLOAD4",
                              "GRAV", "LOAD", "TEMP", "TEMPD"})
@@ -84,13 +87,8 @@ class NastranReader {
 
   [[noreturn]] static void refuse_unknown(const Card& card)
   {
-    for (const char* solid : {"CTETRA", "CHEXA", "CPENTA", "CPYRAM", "CHEXA8", "CHEXA20"}) {
-      if (card.name() != solid) continue;
-      card.refuse(
-          "a solid element; Chladni has shells and beams: mesh the mid-surface with CQUAD4, "
-          "CQUAD8, "
-          "CTRIA3 or CTRIA6, or reduce the solids in the program that they come from");
-    }
+    for (const char* name : {"CPYRAM", "CHEXA8", "CHEXA20"})
+      if (card.name() == name) card.refuse(no_such_solid);
     card.refuse("this card is not known; take it out if the model is the same without it");
   }
 
@@ -134,7 +132,7 @@ class NastranReader {
     const std::string kind = card.name().starts_with('R')       ? "rigid"
                              : card.name().starts_with("CELAS") ? "spring"
                              : card.name() == "CONM2"           ? "mass"
-                                                                : "shell or beam";
+                                                                : "solid, shell or beam";
     const std::int64_t number = card.integer(1, "EID");
     if (number == 0 || !element_numbers_.emplace(kind, number).second)
       card.refuse("its number is that of another element, or 0");
@@ -165,11 +163,34 @@ class NastranReader {
     add_surface(card, nodes(card, n));
   }
 
+  /// Of what stands behind the corners a card may leave out any.
+  void add_element(const Card& card, const std::vector<std::int64_t>& of_card, const char* property)
+  {
+    const std::vector<FileElement>& types = file_elements(Format::nastran, card.name());
+    const auto type = std::ranges::find(types, of_card.size(), &FileElement::n_nodes);
+    deck_.elements.push_back(deck_element(*type, element_number(card), of_card,
+                                          property_group(card, property, dimension(type->shape))));
+    deck_.elements.back().place = card.place();
+  }
+
   void add_surface(const Card& card, const std::vector<std::int64_t>& of_card)
   {
-    deck_.elements.push_back(
-        surface_element(element_number(card), of_card, property_group(card, "pshell", 2)));
-    deck_.elements.back().place = card.place();
+    add_element(card, of_card, "pshell");
+  }
+
+  /// EID PID G1 .. : corners, then the nodes in the middle of edges, or none of these.
+  void solid(const Card& card)
+  {
+    const std::vector<FileElement>& types = file_elements(Format::nastran, card.name());
+    const std::size_t n_corners = types.front().n_nodes, n_all = types.back().n_nodes;
+    card.expect_no_more_than(2 + n_all);
+    std::vector<std::int64_t> of_card = nodes(card, n_corners);
+    for (std::size_t i = n_corners; i < n_all; ++i)
+      of_card.push_back(card.integer_or(3 + i, "number of a node", 0));
+    const bool has_middles = std::any_of(of_card.begin() + std::ptrdiff_t(n_corners), of_card.end(),
+                                         [](std::int64_t node) { return node != 0; });
+    if (!has_middles) of_card.resize(n_corners);
+    add_element(card, of_card, "psolid");
   }
 
   void curved_shell(const Card& card)
@@ -194,12 +215,7 @@ class NastranReader {
       if (card.real_or(i, "an offset", 0.0) != 0.0) card.refuse(no_offset);
     card.expect_no_more_than(16);
     const char* kind = card.name() == "CBAR" ? "pbar" : "pbeam";
-    deck_.elements.push_back({.number = element_number(card),
-                              .shape = Shape::line,
-                              .order = 1,
-                              .nodes = nodes(card, 2),
-                              .group = property_group(card, kind, 1),
-                              .place = card.place()});
+    add_element(card, nodes(card, 2), kind);
   }
 
   void rigid(const Card& card) { element_number(card); }

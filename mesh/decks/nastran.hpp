@@ -13,10 +13,11 @@
 
 namespace chladni::mesh {
 
-/// Reads nodes, elements, groups and couplings. The groups are `pshell_1`, `pbar_2`, `pbeam_3` for
-/// the elements of a property; `rbe2_4`, `rbar_4`, `mpc_4_17` for the nodes that follow (17 that of
-/// the equations), `rbe3_5` for those that are averaged; `spc_6_123` for the nodes whose components
-/// 1, 2, 3 the set 6 holds; `ps_123` for those that their GRID holds; `set_7` for a SET1.
+/// Reads nodes, elements, groups and couplings. The groups are `psolid_1`, `pshell_1`, `pbar_2`,
+/// `pbeam_3` for the elements of a property; `rbe2_4`, `rbar_4`, `mpc_4_17` for the nodes that
+/// follow (17 that of the equations), `rbe3_5` for those that are averaged; `spc_6_123` for the
+/// nodes whose components 1, 2, 3 the set 6 holds; `ps_123` for those that their GRID holds;
+/// `set_7` for a SET1.
 /// @throws chladni::Error naming line and card of a mistake, and of every unknown card.
 Deck nastran_deck(std::span<const Card> cards);
 

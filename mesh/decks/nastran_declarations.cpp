@@ -85,6 +85,7 @@ class NastranDeclarer {
   Declarations declare()
   {
     for (const Card& card : cards_) {
+      if (card.name() == "PSOLID") solid(card);
       if (card.name() == "PSHELL") shell(card);
       if (card.name() == "PBAR") bar(card);
       if (card.name() == "PBARL") bar_by_shape(card);
@@ -102,10 +103,7 @@ class NastranDeclarer {
   void check_has_section(std::size_t g) const
   {
     const DeckGroup& group = deck_.groups[g];
-    const bool is_there =
-        std::ranges::find(all_.shells, group.name, &DeclaredShell::group) != all_.shells.end() ||
-        std::ranges::find(all_.beams, group.name, &DeclaredBeam::group) != all_.beams.end();
-    if (group.dimension == 0 || is_there) return;
+    if (group.dimension == 0 || all_.has_section(group.name)) return;
     const auto element = std::ranges::find(deck_.elements, int(g), &DeckElement::group);
     throw Error(fmt::format("{}: element {} is of {}, and there is no such property",
                             element->place, element->number, group.name));
@@ -122,16 +120,31 @@ class NastranDeclarer {
     for (const Card& card : cards_) {
       if (card.name() != "MAT1") continue;
       const DeclaredMaterial found = material(card, units_, all_.notes);
-      const auto is_of_it = [&](const auto& section) { return section.material == found.name; };
-      const bool is_used =
-          std::ranges::any_of(all_.shells, is_of_it) || std::ranges::any_of(all_.beams, is_of_it);
       if (found.density > 0.0) all_.materials.push_back(found);
-      if (is_used && !(found.density > 0.0)) {
+      if (all_.uses(found.name) && !(found.density > 0.0)) {
         card.refuse(
             "has no density (RHO, field 6), without which there are no natural frequencies; give "
             "it one, a small one to what is to have no mass");
       }
     }
+  }
+
+  /// PID MID CORDM IN STRESS ISOP FCTN; the material is isotropic, so that its axes do not matter.
+  void solid(const Card& card)
+  {
+    const std::string group = fmt::format("psolid_{}", card.integer(1, "PID"));
+    card.expect_no_more_than(7);
+    if (!is_used(group)) return;
+    if (card.has(7) && card.field(7) != "SMECH") {
+      card.refuse(
+          fmt::format("FCTN = {} is no structure; take it out, or model it apart", card.field(7)));
+    }
+    const bool is_reduced = card.field(6) == "REDUCED" || card.field(6) == "0";
+    if (is_reduced) {
+      all_.notes.push_back(
+          fmt::format("PSOLID {}: its elements are of full integration here", card.field(1)));
+    }
+    all_.solids.push_back({.group = group, .material = material_name(card, 2)});
   }
 
   void shell(const Card& card)

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <map>
-#include <set>
+#include <optional>
 #include <tuple>
 
 #include "common/error.hpp"
@@ -23,9 +24,9 @@ bool is_among(const std::vector<std::string>& names, const std::string& name)
   return std::ranges::find(names, name) != names.end();
 }
 
-bool is_line(const ExchangeMesh& mesh, std::size_t element)
+int dimension_of(const ExchangeMesh& mesh, std::size_t element)
 {
-  return mesh.elements[element].shape == Shape::line;
+  return dimension(mesh.elements[element].shape);
 }
 
 /// Elements of one type with the same nodes become one, in the groups of all of them.
@@ -61,57 +62,58 @@ void merge_doubled(ExchangeMesh& mesh)
       n_doubled, numbers[0], numbers[1]));
 }
 
+/// Of the elements of a group, which are of one dimension; 0 where it has none.
+int dimension_of(const ExchangeMesh& mesh, const ExchangeGroup& group)
+{
+  return group.elements.empty() ? 0 : dimension_of(mesh, group.elements.front());
+}
+
 /// Adds members to the group of their name that holds the same kind, nodes alone included.
 void add_to_group(const ExchangeMesh& mesh, std::vector<ExchangeGroup>& groups,
                   ExchangeGroup members)
 {
-  const auto kind = [&](const ExchangeGroup& group) {
-    return group.elements.empty() ? 0 : is_line(mesh, group.elements.front()) ? 1 : 2;
-  };
   const auto same = std::ranges::find_if(groups, [&](const ExchangeGroup& group) {
-    return group.name == members.name && kind(group) == kind(members);
+    return group.name == members.name && dimension_of(mesh, group) == dimension_of(mesh, members);
   });
   if (same == groups.end()) return groups.push_back(std::move(members));
   std::ranges::copy(members.nodes, std::back_inserter(same->nodes));
   std::ranges::copy(members.elements, std::back_inserter(same->elements));
 }
 
-/// Groups of one name and one kind of members become one. Lines that share the name with surfaces
-/// become the group NAME_lines.
+/// Groups of one name and one kind of members become one. Lines and surfaces that share the name
+/// with elements of a higher dimension become the groups NAME_lines and NAME_faces.
 void unite_groups(ExchangeMesh& mesh)
 {
+  constexpr std::array kinds{"nodes", "lines", "surfaces", "solids"};
+  constexpr std::array suffixes{"", "_lines", "_faces", ""};
   std::vector<ExchangeGroup> groups;
-  std::set<std::string> of_surfaces;
+  std::map<std::string, int> highest;
   for (ExchangeGroup& group : mesh.groups) {
-    ExchangeGroup lines{.name = group.name};
-    std::vector<std::size_t> surfaces;
+    std::array<ExchangeGroup, 4> by_dimension;
     for (const std::size_t e : group.elements)
-      (is_line(mesh, e) ? lines.elements : surfaces).push_back(e);
-    if (surfaces.empty()) {
-      add_to_group(mesh, groups, std::move(group));
-      continue;
+      by_dimension[std::size_t(dimension_of(mesh, e))].elements.push_back(e);
+    int& most = highest[group.name];
+    for (int d = 1; d <= 3; ++d)
+      if (!by_dimension[std::size_t(d)].elements.empty()) most = std::max(most, d);
+    // Nodes stay with the elements of the highest dimension of their group.
+    std::size_t own = 3;
+    while (own > 0 && by_dimension[own].elements.empty()) --own;
+    by_dimension[own].nodes = std::move(group.nodes);
+    for (std::size_t d = 4; d-- > 0;) {
+      if (by_dimension[d].elements.empty() && d != own) continue;
+      by_dimension[d].name = group.name;
+      add_to_group(mesh, groups, std::move(by_dimension[d]));
     }
-    of_surfaces.insert(group.name);
-    group.elements = std::move(surfaces);
-    add_to_group(mesh, groups, std::move(group));
-    if (!lines.elements.empty()) add_to_group(mesh, groups, std::move(lines));
   }
   for (ExchangeGroup& group : groups) {
-    if (group.elements.empty() || !is_line(mesh, group.elements.front())) continue;
-    if (!of_surfaces.contains(group.name)) continue;
-    mesh.notes.push_back(fmt::format(
-        "group \"{0}\" holds surfaces and {1} lines, which are the group \"{0}_lines\" here",
-        group.name, group.elements.size()));
-    group.name += "_lines";
+    const auto d = std::size_t(dimension_of(mesh, group)), most = std::size_t(highest[group.name]);
+    if (d == 0 || d == most) continue;
+    mesh.notes.push_back(
+        fmt::format("group \"{0}\" holds {1} and {2} {3}, which are the group \"{0}{4}\" here",
+                    group.name, kinds[most], group.elements.size(), kinds[d], suffixes[d]));
+    group.name += suffixes[d];
   }
   mesh.groups = std::move(groups);
-}
-
-/// 1 or 2, of the elements of a group; 0 where it has none.
-int dimension_of(const ExchangeMesh& mesh, const ExchangeGroup& group)
-{
-  if (group.elements.empty()) return 0;
-  return is_line(mesh, group.elements.front()) ? 1 : 2;
 }
 
 /// Its name, or NAME_nodes where a group of elements is called so.
@@ -157,8 +159,8 @@ class SectionGroups {
  private:
   bool has_section(std::size_t element, int group) const
   {
-    return is_among(is_line(mesh_, element) ? options_.line_groups : options_.shell_groups,
-                    name(group));
+    const std::array names{&options_.line_groups, &options_.shell_groups, &options_.solid_groups};
+    return is_among(*names.at(std::size_t(dimension_of(mesh_, element)) - 1), name(group));
   }
 
   void take(std::size_t element, int group)
@@ -185,45 +187,18 @@ class SectionGroups {
   std::vector<int> group_of_;
 };
 
-/// The group of surfaces that are in none: one for all of them where no surface is in a group.
+/// The group of surfaces or solids that are in none: one for all of them where none is in a group.
 /// @return its index, or -1
-int group_of_the_rest(Deck& deck)
+int group_of_the_rest(Deck& deck, int dimension)
 {
-  const auto is_of_surfaces = [](const DeckGroup& group) { return group.dimension == 2; };
-  if (std::ranges::any_of(deck.groups, is_of_surfaces)) return -1;
-  std::string name = "surfaces";
+  const auto is_alike = [&](const DeckGroup& group) { return group.dimension == dimension; };
+  if (std::ranges::any_of(deck.groups, is_alike)) return -1;
+  std::string name = dimension == 2 ? "surfaces" : "volumes";
   while (std::ranges::find(deck.groups, name, &DeckGroup::name) != deck.groups.end()) name += "_";
-  return group_index(deck, name, 2);
+  return group_index(deck, name, dimension);
 }
 
 }  // namespace
-
-const char* const solids_are_not_read =
-    "a solid element; Chladni has shells and beams: mesh the mid-surface with triangles and "
-    "quadrilaterals, or reduce the solids in the program that they come from";
-
-DeckElement exchange_element(std::int64_t number, Shape shape, int order,
-                             const std::vector<std::int64_t>& nodes)
-{
-  const std::vector<int> places = corners_first(shape, order);
-  const bool lacks_inner_nodes = shape == Shape::quadrilateral && order > 1 &&
-                                 nodes.size() == 4 * static_cast<std::size_t>(order);
-  if (nodes.size() != places.size() && !lacks_inner_nodes) {
-    throw Error(fmt::format("element {} has {} nodes; {} of order {} has {}", number, nodes.size(),
-                            shape == Shape::line       ? "a line"
-                            : shape == Shape::triangle ? "a triangle"
-                                                       : "a quadrilateral",
-                            order, places.size()));
-  }
-  DeckElement element{.number = number,
-                      .shape = shape,
-                      .order = order,
-                      .nodes = std::vector<std::int64_t>(places.size(), 0),
-                      .group = -1};
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    element.nodes[static_cast<std::size_t>(places[k])] = nodes[k];
-  return element;
-}
 
 ExchangeGroup& exchange_group(ExchangeMesh& mesh, const std::string& name, Members members)
 {
@@ -244,16 +219,20 @@ Deck deck_of(ExchangeMesh mesh, const MeshOptions& options)
       .nodes = mesh.nodes, .elements = {}, .groups = {}, .couplings = {}, .notes = mesh.notes};
   add_groups(deck, mesh);
   const std::vector<int> group_of = SectionGroups(mesh, deck, options).find();
-  const int rest = group_of_the_rest(deck);
+  std::array<std::optional<int>, 4> rest;  // by dimension
   int n_left_out = 0;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     DeckElement element = mesh.elements[e];
-    const bool is_line = element.shape == Shape::line;
-    element.group = group_of[e] < 0 && !is_line ? rest : group_of[e];
-    if (is_line && element.group < 0)
+    const int d = dimension(element.shape);
+    element.group = group_of[e];
+    if (element.group < 0 && d == 1) {
       ++n_left_out;
-    else
-      deck.elements.push_back(std::move(element));
+      continue;
+    }
+    std::optional<int>& others = rest[std::size_t(d)];
+    if (element.group < 0 && !others) others = group_of_the_rest(deck, d);
+    if (element.group < 0) element.group = *others;
+    deck.elements.push_back(std::move(element));
   }
   if (n_left_out > 0)
     deck.notes.push_back(fmt::format("{} lines of no group are left out", n_left_out));

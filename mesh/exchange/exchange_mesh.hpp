@@ -30,25 +30,17 @@ struct ExchangeMesh {
   std::vector<std::string> notes;
 };
 
-/// An element given by its nodes, corners first. A quadrilateral may lack its inner nodes.
-/// @param order  1 to 4
-/// @throws chladni::Error when the number of nodes does not fit shape and order.
-DeckElement exchange_element(std::int64_t number, Shape shape, int order,
-                             const std::vector<std::int64_t>& nodes);
-
-/// The second half of an error about a solid element, which says what to do.
-extern const char* const solids_are_not_read;
-
 /// What a group is looked up for: nodes alone, or elements.
 enum class Members { nodes, elements };
 /// The group of this name and kind of members, which is added if missing.
 ExchangeGroup& exchange_group(ExchangeMesh& mesh, const std::string& name, Members members);
 
 /// Makes elements of one type with the same nodes one element, in the groups of all of them, and
-/// gives each element one group: that with a section (`shell_groups`, `line_groups`), else the
-/// first that contains it. All groups hold the nodes of their elements; groups of one name and kind
-/// are one. Lines of a group that holds surfaces too form the group NAME_lines. If no surface is in
-/// a group, all form the group "surfaces"; lines without a group are left out.
+/// gives each element one group: that with a section (`solid_groups`, `shell_groups`,
+/// `line_groups`), else the first that contains it. All groups hold the nodes of their elements;
+/// groups of one name and kind are one. Lines and surfaces of a group that holds elements of a
+/// higher dimension too form the groups NAME_lines and NAME_faces. If no surface or no solid is in
+/// a group, all form the group "surfaces" or "volumes"; lines without a group are left out.
 /// @throws chladni::Error naming groups that share a name, and an element with two sections.
 Deck deck_of(ExchangeMesh mesh, const MeshOptions& options);
 

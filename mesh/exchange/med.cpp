@@ -16,6 +16,8 @@
 
 #include "common/error.hpp"
 #include "common/files/hdf5_objects.hpp"
+#include "mesh/decks/file_elements.hpp"
+#include "mesh/element_types.hpp"
 
 namespace chladni::mesh {
 
@@ -186,22 +188,6 @@ std::vector<std::string> MedFile::texts(const std::string& name, std::size_t len
   return texts;
 }
 
-struct MedType {
-  Shape shape;
-  int order;
-  std::size_t n_nodes;
-};
-
-const std::map<std::string, MedType>& med_types()
-{
-  static const std::map<std::string, MedType> all{
-      {"SE2", {Shape::line, 1, 2}},          {"SE3", {Shape::line, 2, 3}},
-      {"TR3", {Shape::triangle, 1, 3}},      {"TR6", {Shape::triangle, 2, 6}},
-      {"QU4", {Shape::quadrilateral, 1, 4}}, {"QU8", {Shape::quadrilateral, 2, 8}},
-      {"QU9", {Shape::quadrilateral, 2, 9}}};
-  return all;
-}
-
 /// Numbers of families and the groups that each is of.
 using Families = std::map<std::int64_t, std::vector<std::string>>;
 
@@ -321,16 +307,14 @@ class MedReader {
     }
   }
 
-  const MedType& known_type(const std::string& name) const
+  static const FileElement& known_type(const std::string& name)
   {
-    const auto type = med_types().find(name);
-    if (type != med_types().end()) return type->second;
-    static const std::set<std::string> solids{"TE4", "T10", "PY5", "P13", "PE6", "P15",  "P18",
-                                              "HE8", "H20", "H27", "PO6", "POE", "OCT12"};
-    if (solids.contains(name)) throw Error(fmt::format("MAI: {} is {}", name, solids_are_not_read));
-    throw Error(
-        fmt::format("MAI: elements {} are not known; SE2, SE3, TR3, TR6, QU4, QU8, QU9 and PO1 are",
-                    shown(name)));
+    const std::vector<FileElement>& types = file_elements(Format::med, name);
+    if (!types.empty()) return types.front();
+    static const std::set<std::string> solids{"PY5", "P13", "PO6", "POE", "OCT12"};
+    if (solids.contains(name)) throw Error(fmt::format("MAI: {} is {}", name, no_such_solid));
+    throw Error(fmt::format("MAI: elements {} are not known; PO1, {} are", shown(name),
+                            names_of_elements(Format::med)));
   }
 
   std::vector<std::int64_t> node_indices(const std::string& name) const
@@ -346,16 +330,21 @@ class MedReader {
   {
     const std::string name = step_ + "/MAI/" + type_name;
     const bool is_point = type_name == "PO1";
-    const MedType type = is_point ? MedType{Shape::line, 0, 1} : known_type(type_name);
+    const FileElement* const type = is_point ? nullptr : &known_type(type_name);
+    const std::size_t n_each = is_point ? 1 : type->n_nodes;
     const std::vector<std::int64_t> nodes = node_indices(name);
-    if (nodes.size() % type.n_nodes != 0)
+    if (nodes.size() % n_each != 0)
       throw Error(fmt::format("{}/NOD: has {} values", shown(name), nodes.size()));
-    const std::size_t n = nodes.size() / type.n_nodes;
+    const std::size_t n = nodes.size() / n_each;
+    if (!is_point && n_each > type->places.size()) {
+      mesh_.notes.push_back(fmt::format(
+          "{} elements {}: their nodes on faces and inside are left out", n, type_name));
+    }
     const auto numbers = optional_numbers(name + "/NUM", n);
     const auto families = optional_numbers(name + "/FAM", n);
     for (std::size_t e = 0; e < n; ++e) {
       std::vector<std::int64_t> of_element;
-      for (std::size_t k = 0; k < type.n_nodes; ++k)
+      for (std::size_t k = 0; k < n_each; ++k)
         of_element.push_back(node_numbers_[static_cast<std::size_t>(nodes[k * n + e] - 1)]);
       static const std::vector<std::string> none;
       const auto& groups = families ? groups_of(of_elements_, (*families)[e]) : none;
@@ -367,8 +356,19 @@ class MedReader {
       if (is_point) continue;
       const std::int64_t number =
           numbers ? (*numbers)[e] : static_cast<std::int64_t>(mesh_.elements.size()) + 1;
-      mesh_.elements.push_back(exchange_element(number, type.shape, type.order, of_element));
+      mesh_.elements.push_back(turned_outside(deck_element(*type, number, of_element, -1)));
     }
+  }
+
+  /// MED lists the nodes of solids in the sense that turns them inside out here; some programs do
+  /// not.
+  DeckElement turned_outside(DeckElement element) const
+  {
+    if (!(orientation(element, mesh_.nodes) < 0.0)) return element;
+    const std::vector<std::int64_t> nodes = element.nodes;
+    const std::vector<int> places = mirrored_places(element.shape, element.order);
+    for (std::size_t i = 0; i < nodes.size(); ++i) element.nodes[i] = nodes[std::size_t(places[i])];
+    return element;
   }
 
   MedFile file_;

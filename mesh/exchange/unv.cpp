@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -18,6 +17,7 @@
 
 #include "common/error.hpp"
 #include "mesh/decks/deck_text.hpp"
+#include "mesh/decks/file_elements.hpp"
 
 namespace chladni::mesh {
 
@@ -127,39 +127,6 @@ std::string_view UnvWords::next(const char* what)
   return word;
 }
 
-struct Descriptor {
-  Shape shape;
-  int order;
-};
-
-/// What an element is by its FE descriptor; nothing for what is neither line nor surface.
-std::optional<Descriptor> descriptor(std::int64_t id)
-{
-  if (id == 11 || id == 21 || id == 22) return Descriptor{Shape::line, 1};
-  if (id == 23 || id == 24) return Descriptor{Shape::line, 2};
-  if (id == 71) return Descriptor{Shape::quadrilateral, 1};  // of membranes, the two are exchanged
-  if (id == 74) return Descriptor{Shape::triangle, 1};
-  const std::int64_t family = id / 10, kind = id % 10;
-  if (family < 4 || family > 9 || family == 8) return std::nullopt;
-  if (kind == 1) return Descriptor{Shape::triangle, 1};
-  if (kind == 2) return Descriptor{Shape::triangle, 2};
-  if (kind == 4) return Descriptor{Shape::quadrilateral, 1};
-  if (kind == 5) return Descriptor{Shape::quadrilateral, 2};
-  return std::nullopt;
-}
-
-/// Around the edges, as universal files number nodes, to corners first; a node inside stands last.
-std::vector<std::int64_t> corners_before_middles(const std::vector<std::int64_t>& around, int order)
-{
-  if (order == 1) return around;
-  const std::size_t n_on_edges = std::min<std::size_t>(around.size(), 8);
-  std::vector<std::int64_t> nodes;
-  for (std::size_t k = 0; k < n_on_edges; k += 2) nodes.push_back(around[k]);
-  for (std::size_t k = 1; k < n_on_edges; k += 2) nodes.push_back(around[k]);
-  nodes.insert(nodes.end(), around.begin() + std::ptrdiff_t(n_on_edges), around.end());
-  return nodes;
-}
-
 class UnvReader {
  public:
   explicit UnvReader(double length_unit) : length_unit_(length_unit) {}
@@ -212,19 +179,31 @@ class UnvReader {
     }
   }
 
-  Descriptor known_descriptor(const UnvWords& words, std::int64_t number, std::int64_t id) const
+  static const std::vector<FileElement>& known_descriptor(const UnvWords& words,
+                                                          std::int64_t number, std::int64_t id)
   {
-    if (const auto found = descriptor(id)) return *found;
+    const std::vector<FileElement>& types = file_elements(Format::unv, fmt::format("{}", id));
+    if (!types.empty()) return types;
     const bool is_solid = id >= 101 && id <= 118;
-    if (is_solid) {
-      words.refuse(
-          fmt::format("element {} (descriptor {}) is {}", number, id, solids_are_not_read));
-    }
+    if (is_solid)
+      words.refuse(fmt::format("element {} (descriptor {}) is {}", number, id, no_such_solid));
     words.refuse(
-        fmt::format("element {} has the descriptor {}; known are beams (11 to 24) and triangles "
-                    "and quadrilaterals of order 1 and 2 of shells, plates, membranes and plane "
-                    "elements (41 to 75, 91 to 95)",
+        fmt::format("element {} has the descriptor {}; known are beams (11 to 24), triangles and "
+                    "quadrilaterals "
+                    "of order 1 and 2 of shells, plates, membranes and plane elements (41 to 75, "
+                    "91 to 95), and "
+                    "solids of order 1 and 2 (111 to 113, 115, 116, 118)",
                     number, id));
+  }
+
+  /// The type of this number of nodes.
+  static const FileElement& type_of(const UnvWords& words, const std::vector<FileElement>& types,
+                                    std::int64_t number, std::size_t n_nodes)
+  {
+    const auto found = std::ranges::find(types, n_nodes, &FileElement::n_nodes);
+    if (found != types.end()) return *found;
+    words.refuse(fmt::format("element {} has {} nodes; that of its descriptor has {}", number,
+                             n_nodes, types.front().n_nodes));
   }
 
   void elements(UnvWords words)
@@ -235,22 +214,16 @@ class UnvReader {
       const std::int64_t property = words.integer("physical property");
       for (const char* what : {"material", "colour"}) words.integer(what);
       const std::int64_t n_nodes = words.integer("number of nodes");
-      const Descriptor kind = known_descriptor(words, number, id);
-      if (kind.shape == Shape::line)
+      const std::vector<FileElement>& types = known_descriptor(words, number, id);
+      if (types.front().shape == Shape::line)
         for (const char* what : {"orientation", "cross-section", "cross-section"})
           words.integer(what);
-      if (n_nodes < 2 || n_nodes > 9)
-        words.refuse(fmt::format("element {} has {} nodes", number, n_nodes));
-      std::vector<std::int64_t> around;
-      for (std::int64_t k = 0; k < n_nodes; ++k) around.push_back(words.number("number of a node"));
+      const FileElement& type = type_of(words, types, number, std::size_t(n_nodes));
+      std::vector<std::int64_t> nodes;
+      for (std::int64_t k = 0; k < n_nodes; ++k) nodes.push_back(words.number("number of a node"));
       if (!place_of_.emplace(number, mesh_.elements.size()).second)
         words.refuse(fmt::format("element {} is there twice", number));
-      try {
-        mesh_.elements.push_back(exchange_element(number, kind.shape, kind.order,
-                                                  corners_before_middles(around, kind.order)));
-      } catch (const Error& error) {
-        words.refuse(error.what());
-      }
+      mesh_.elements.push_back(deck_element(type, number, nodes, -1));
       property_of_.push_back(property);
     }
   }
@@ -313,13 +286,13 @@ class UnvReader {
     std::vector<char> is_grouped(mesh_.elements.size(), 0);
     for (const ExchangeGroup& group : mesh_.groups)
       for (const std::size_t e : group.elements) is_grouped[e] = 1;
-    std::map<std::pair<std::string, bool>, ExchangeGroup> rest;
+    std::map<std::pair<std::string, int>, ExchangeGroup> rest;
     for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
       if (is_grouped[e] != 0) continue;
-      const bool is_line = mesh_.elements[e].shape == Shape::line;
+      const int d = dimension(mesh_.elements[e].shape);
       const std::string name =
-          fmt::format("property_{}{}", property_of_[e], is_line ? "_lines" : "");
-      rest.emplace(std::pair(name, is_line), ExchangeGroup{.name = name})
+          fmt::format("property_{}{}", property_of_[e], d == 1 ? "_lines" : "");
+      rest.emplace(std::pair(name, d), ExchangeGroup{.name = name})
           .first->second.elements.push_back(e);
     }
     for (auto& [key, group] : rest) mesh_.groups.push_back(std::move(group));

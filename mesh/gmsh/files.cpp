@@ -16,7 +16,6 @@
 
 #include "common/confinement/sandbox.hpp"
 #include "common/error.hpp"
-#include "mesh/decks/read_deck.hpp"
 #include "mesh/gmsh_text.hpp"
 #include "mesh/mesh_archive.hpp"
 #include "mesh/own_readers.hpp"
@@ -262,13 +261,26 @@ std::vector<Entity> entities_of(int dimension)
   return entities;
 }
 
-void check_shells(const std::string& file)
+/// 3 if a section of the scene is of solids.
+int dimension_of_body(const MeshOptions& options)
 {
-  if (const auto solids = entities_of(3); !solids.empty()) {
-    throw Error(
-        fmt::format("mesh file {} holds {} solids; Chladni meshes shells: export the "
-                    "mid-surfaces as surfaces (shell or faces)",
-                    file, solids.size()));
+  return options.solid_groups.empty() ? 2 : 3;
+}
+
+void check_content(const MeshOptions& options)
+{
+  const std::string& file = *options.file;
+  const auto solids = entities_of(3);
+  if (dimension_of_body(options) == 3) {
+    if (!solids.empty()) return;
+    throw Error(fmt::format("mesh file {} holds no solid, of which the section of \"{}\" is", file,
+                            options.solid_groups.front()));
+  }
+  if (!solids.empty()) {
+    throw Error(fmt::format(
+        "mesh file {} holds {} solids: give sections of type = \"solid\" to \"volume_1\" "
+        "and so on, or export the mid-surfaces as surfaces (shell or faces)",
+        file, solids.size()));
   }
   if (entities_of(2).empty()) throw Error(fmt::format("mesh file {} has no surface", file));
 }
@@ -285,13 +297,16 @@ std::vector<Entity> add_ring_arcs(const RingOptions& ring)
   return arcs;
 }
 
-/// Makes all surfaces meet in common curves, with the rings' arcs among them.
-/// @return what became of each surface and curve of the file
+/// Makes all volumes and surfaces meet in common surfaces and curves, with the rings' arcs among
+/// them.
+/// @return what became of each volume, surface and curve of the file
 std::map<Entity, std::vector<Entity>> join(const std::vector<RingOptions>& rings)
 {
-  std::vector<Entity> objects = entities_of(2);
-  const std::vector<Entity> curves = entities_of(1);
-  objects.insert(objects.end(), curves.begin(), curves.end());
+  std::vector<Entity> objects;
+  for (const int dimension : {3, 2, 1}) {
+    const std::vector<Entity> entities = entities_of(dimension);
+    objects.insert(objects.end(), entities.begin(), entities.end());
+  }
   std::vector<Entity> tools;
   for (const RingOptions& ring : rings) {
     const std::vector<Entity> arcs = add_ring_arcs(ring);
@@ -330,12 +345,12 @@ void set_sizes(double element_size)
   gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 1);
 }
 
-/// Groups of the file's entities, as what became of them; one for each surface and curve that is
-/// left, unless groups of surfaces or curves are given.
+/// Groups of the file's entities, as what became of them; one for each volume, surface and curve
+/// that is left, unless groups of this kind are given.
 void add_groups(const MeshOptions& options, const std::vector<std::vector<Entity>>& of_groups,
                 const std::map<Entity, std::vector<Entity>>& became)
 {
-  std::array<bool, 3> given{};
+  std::array<bool, 4> given{};
   for (std::size_t i = 0; i < options.groups.size(); ++i) {
     std::vector<Entity> parts;
     for (const Entity& entity : of_groups[i]) {
@@ -344,11 +359,11 @@ void add_groups(const MeshOptions& options, const std::vector<std::vector<Entity
     }
     if (parts.empty()) continue;
     given.at(parts.front().first) = true;
-    add_entity_group(options.groups[i], parts);
+    add_entity_group(options.groups[i], parts, options);
   }
   for (const auto& [entity, parts] : became) {
     if (given.at(entity.first) || parts.empty()) continue;
-    add_entity_group({.name = entity_name(entity), .entities = {}}, parts);
+    add_entity_group({.name = entity_name(entity), .entities = {}}, parts, options);
   }
 }
 
@@ -361,7 +376,7 @@ std::vector<std::string> open_step(const MeshOptions& options)
   std::vector<Entity> imported;
   occ::importShapes(*options.file, imported, false, "step");
   occ::synchronize();
-  check_shells(*options.file);
+  check_content(options);
   std::vector<std::vector<Entity>> of_groups;
   for (const EntityGroup& group : options.groups) of_groups.push_back(find_entities(group));
   add_groups(options, of_groups, join(options.rings));
@@ -371,7 +386,7 @@ std::vector<std::string> open_step(const MeshOptions& options)
 
 namespace {
 
-constexpr std::array<const char*, 3> prefixes{"point_", "curve_", "surface_"};
+constexpr std::array<const char*, 4> prefixes{"point_", "curve_", "surface_", "volume_"};
 
 std::string label_of(const Entity& entity)
 {
@@ -400,7 +415,6 @@ std::string list(const std::vector<Entity>& entities)
 
 void check_ungrouped(const EntityGroup& group, const Entity& entity)
 {
-  if (entity.first != 2) return;
   std::vector<int> tags;
   gmsh::model::getPhysicalGroupsForEntity(entity.first, entity.second, tags);
   if (tags.empty()) return;
@@ -447,28 +461,28 @@ std::vector<Entity> find_entities(const EntityGroup& group)
 {
   std::vector<Entity> all;
   gmsh::model::getEntities(all);
-  std::erase_if(all, [](const Entity& e) { return e.first > 2; });
   std::vector<Entity> found;
   for (const std::string& name : group.entities) {
     const std::size_t before = found.size();
     for (const Entity& entity : all)
       if (entity_name(entity) == name || has_label(entity, name)) found.push_back(entity);
     if (found.size() > before) continue;
-    std::ranges::reverse(all);  // surfaces first
+    std::ranges::reverse(all);  // volumes and surfaces first
     throw Error(fmt::format("group \"{}\": there is no entity \"{}\"; there are: {}", group.name,
                             name, list(all)));
   }
   const auto other = [&](const Entity& e) { return e.first != found.front().first; };
   if (std::ranges::any_of(found, other))
-    throw Error(fmt::format("group \"{}\" mixes points, curves and surfaces", group.name));
+    throw Error(fmt::format("group \"{}\" mixes points, curves, surfaces and volumes", group.name));
   return found;
 }
 
-void add_entity_group(const EntityGroup& group, const std::vector<Entity>& entities)
+void add_entity_group(const EntityGroup& group, const std::vector<Entity>& entities,
+                      const MeshOptions& options)
 {
   std::vector<int> tags;
   for (const Entity& entity : entities) {
-    check_ungrouped(group, entity);
+    if (entity.first == dimension_of_body(options)) check_ungrouped(group, entity);
     tags.push_back(entity.second);
   }
   std::ranges::sort(tags);
@@ -476,16 +490,18 @@ void add_entity_group(const EntityGroup& group, const std::vector<Entity>& entit
   add_physical_group(entities.front().first, tags, group.name);
 }
 
-void add_groups_of_each_entity()
+void add_groups_of_each_entity(const MeshOptions& options)
 {
+  if (dimension_of_body(options) == 3) add_group_of_each(3);
   add_group_of_each(2);
   add_group_of_each(1);
 }
 
 void add_entity_groups(const MeshOptions& options)
 {
-  for (const EntityGroup& group : options.groups) add_entity_group(group, find_entities(group));
-  add_groups_of_each_entity();
+  for (const EntityGroup& group : options.groups)
+    add_entity_group(group, find_entities(group), options);
+  add_groups_of_each_entity(options);
 }
 
 namespace {

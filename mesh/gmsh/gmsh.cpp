@@ -262,16 +262,37 @@ void take_entities(const Mesh& mesh, const NamedGroup& named,
   }
 }
 
+/// @return number of elements of this dimension
+std::size_t n_elements(int dimension)
+{
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> numbers;
+  std::vector<std::vector<std::size_t>> nodes;
+  gmsh::model::mesh::getElements(types, numbers, nodes, dimension, -1);
+  std::size_t n = 0;
+  for (const auto& of_type : numbers) n += of_type.size();
+  return n;
+}
+
+/// Whether the model is one of solids: a section is, or there are some, and no section says of what
+/// the mesh is.
+bool is_of_solids(const MeshOptions& options)
+{
+  if (!options.solid_groups.empty()) return true;
+  return options.shell_groups.empty() && options.line_groups.empty() && n_elements(3) > 0;
+}
+
 GroupOfEntity read_groups(Mesh& mesh, const NodeIndex& index, const MeshOptions& options)
 {
+  const int of_body = is_of_solids(options) ? 3 : 2;
   GroupOfEntity group_of_entity;
   for (const NamedGroup& named : named_groups(mesh.notes)) {
     const auto& with_section = named.dimension == 3   ? options.solid_groups
                                : named.dimension == 2 ? options.shell_groups
                                                       : options.line_groups;
     // Surfaces beside volumes are faces of these, and all surfaces are shells otherwise.
-    const bool is_of_shells = named.dimension == 2 && options.solid_groups.empty();
-    if (is_of_shells || (named.dimension > 0 && has_name(with_section, named.name)))
+    const bool has_section = named.dimension > 0 && has_name(with_section, named.name);
+    if (named.dimension == of_body || has_section)
       take_entities(mesh, named, with_section, group_of_entity);
     mesh.groups.push_back(nodes_of(named, index));
   }
@@ -313,18 +334,6 @@ void read_elements(Mesh& mesh, const NodeIndex& index, std::pair<int, int> entit
   }
 }
 
-/// @return number of elements of this dimension
-std::size_t n_elements(int dimension)
-{
-  std::vector<int> types;
-  std::vector<std::vector<std::size_t>> numbers;
-  std::vector<std::vector<std::size_t>> nodes;
-  gmsh::model::mesh::getElements(types, numbers, nodes, dimension, -1);
-  std::size_t n = 0;
-  for (const auto& of_type : numbers) n += of_type.size();
-  return n;
-}
-
 [[noreturn]] void refuse_wrong_dimension()
 {
   const std::size_t n_solids = n_elements(3);
@@ -332,8 +341,9 @@ std::size_t n_elements(int dimension)
   if (n_solids == 0 && n_lines == 0) throw Error("the mesh has no elements");
   throw Error(fmt::format(
       "the mesh has {} solid and {} line elements, but neither surface elements (triangles, quads) "
-      "nor lines of the group of a beam section: "
-      "mesh the mid-surface in two dimensions, and save its elements (with physical groups Gmsh "
+      "nor lines of the group of a beam section: give the group of the volume a section of type = "
+      "\"solid\", or mesh the mid-surface in two dimensions, and save its elements (with physical "
+      "groups Gmsh "
       "saves only elements that are in one)",
       n_solids, n_lines));
 }
@@ -341,7 +351,7 @@ std::size_t n_elements(int dimension)
 void note_what_is_left_out(Mesh& mesh, const MeshOptions& options)
 {
   const std::size_t n_solids = n_elements(3);
-  if (n_solids > 0 && options.solid_groups.empty())
+  if (n_solids > 0 && !is_of_solids(options))
     mesh.notes.push_back(fmt::format("{} solid elements are left out", n_solids));
   const auto empty = [](const Group& group) { return group.nodes.empty(); };
   for (const Group& group : mesh.groups) {
@@ -369,20 +379,18 @@ void raise_linear_solids(Mesh& mesh)
       std::ranges::count(types, tetrahedron) + std::ranges::count(types, wedge) > 0;
   if (!is_linear) return;
   gmsh::model::mesh::setOrder(2);
-  mesh.notes.emplace_back(
-      "solids of order 1 got nodes in the middle of their edges: with corners alone they are far "
-      "too "
-      "stiff");
+  mesh.notes.emplace_back(solids_are_raised);
 }
 
 Mesh current_model(const MeshOptions& options)
 {
   Mesh mesh;
-  if (!options.solid_groups.empty()) raise_linear_solids(mesh);
+  const bool of_solids = is_of_solids(options);
+  if (of_solids) raise_linear_solids(mesh);
   const NodeIndex index = read_nodes(mesh);
   GroupOfEntity group_of_entity = read_groups(mesh, index, options);
   std::vector<std::pair<int, int>> others;
-  gmsh::model::getEntities(others, options.solid_groups.empty() ? 2 : 3);
+  gmsh::model::getEntities(others, of_solids ? 3 : 2);
   for (const auto& other : others) group_of_entity.emplace(other, -1);  // in no group
   for (const auto& [entity, group] : group_of_entity) read_elements(mesh, index, entity, group);
   if (!options.solid_groups.empty() && n_elements(3) == 0) {

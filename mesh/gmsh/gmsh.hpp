@@ -111,9 +111,10 @@ namespace chladni::mesh {
 ///         itself with algorithm 8, and when it is a stranger's and would act on other files.
 std::vector<std::string> open_geo(const MeshOptions& options);
 
-/// Imports the surfaces of a .step in millimetres, joins surfaces that touch, cuts the rings into
-/// them, and names the groups. `options.groups` number entities as the file does.
-/// @throws chladni::Error when the file holds solids or no surface.
+/// Imports the volumes or surfaces of a .step in millimetres, joins those that touch, cuts the
+/// rings into them, and names the groups. `options.groups` number entities as the file does.
+/// @throws chladni::Error when the file holds solids and no section is of solids, or has no
+/// surface.
 std::vector<std::string> open_step(const MeshOptions& options);
 
 /// Adds the groups of the options to a .msh or .geo. If the file has no groups, each entity gets
@@ -126,7 +127,7 @@ void add_entity_groups(const MeshOptions& options);
 /// @throws chladni::Error as `read_gmsh`.
 Mesh read_file(const MeshOptions& options, const std::function<void()>& before_reading);
 
-/// Dimension and tag of a point, curve or surface in Gmsh.
+/// Dimension and tag of a point, curve, surface or volume in Gmsh.
 using Entity = std::pair<int, int>;
 
 /// The name of an entity, as "surface_3".
@@ -137,11 +138,14 @@ std::string entity_name(const Entity& entity);
 std::vector<Entity> find_entities(const EntityGroup& group);
 
 /// Adds a physical group of the entities.
-/// @throws chladni::Error when a surface already belongs to a group.
-void add_entity_group(const EntityGroup& group, const std::vector<Entity>& entities);
+/// @throws chladni::Error when a surface, or a volume of a body of solids, already belongs to a
+/// group.
+void add_entity_group(const EntityGroup& group, const std::vector<Entity>& entities,
+                      const MeshOptions& options);
 
-/// Adds a group for each surface if no surface has one, and for each curve if no curve has one.
-void add_groups_of_each_entity();
+/// Adds a group for each surface if no surface has one, and for each curve if no curve has one; of
+/// a body of solids also for each volume.
+void add_groups_of_each_entity(const MeshOptions& options);
 
 /// What `made_by_mesher` and `declarations` ask chladni-mesher for, in that program.
 /// @param subject  of the question: the mesh of the options, or the declarations of a deck

@@ -32,7 +32,7 @@ constexpr Key mesh_rows[] = {
      {},
      "annulus | hat_disc | pad | rectangle | beam"},
     {"mesh.file", text, "or `generator`",
-     ".msh, .geo, .step, .unv, .med, or a deck: .bdf, .nas, .dat, .inp; beside the scene"},
+     ".msh, .geo, .step, .unv, .med, or a deck: .bdf, .nas, .dat, .inp, .cdb; beside the scene"},
     {"mesh.inner_radius", number, "required; hat_disc: wall_radius", "annulus, pad, hat_disc",
      length},
     {"mesh.outer_radius",

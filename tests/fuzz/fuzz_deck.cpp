@@ -4,6 +4,7 @@
 
 #include "common/error.hpp"
 #include "mesh/decks/abaqus.hpp"
+#include "mesh/decks/ansys.hpp"
 #include "mesh/decks/nastran.hpp"
 
 namespace {
@@ -26,12 +27,18 @@ void feed_abaqus(const std::string& text)
   abaqus_declarations(keywords, deck, {.length = 1e-3, .force = 1.0});
 }
 
+void feed_ansys(const std::string& text)
+{
+  mesh_of(ansys_deck(text), {});
+  ansys_declarations(text, refuse_included, {.length = 1e-3, .force = 1.0});
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size)
 {
   const std::string text(reinterpret_cast<const char*>(bytes), size);
-  for (void (*feed)(const std::string&) : {feed_nastran, feed_abaqus}) {
+  for (void (*feed)(const std::string&) : {feed_nastran, feed_abaqus, feed_ansys}) {
     try {
       feed(text);
     } catch (const chladni::Error&) {

@@ -26,7 +26,7 @@ READERS = {
     "measured": "measured modes and functions in universal files (datasets 55 and 58, 58b), `chladni mac` and `chladni response`",
     "scene": "scene files",
     "geo": "what is asked of `.geo` files before Gmsh reads them",
-    "deck": "decks of Nastran and Abaqus, as meshes and as declarations",
+    "deck": "decks of Nastran, Abaqus and Ansys, as meshes and as declarations",
     "exchange": "universal files and grids of VTK, as meshes",
     "med": "damaged MED files, as meshes",
     "mesh": "the check of `.msh` files before Gmsh reads them",

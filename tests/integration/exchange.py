@@ -130,7 +130,7 @@ def bad_med_files_are_refused(chladni, folder):
     step = f"ENS_MAA/Mesh_1/{STEP_OF_MED}"
 
     def renamed(file):
-        file.move(f"{step}/MAI/QU4", f"{step}/MAI/TE4")
+        file.move(f"{step}/MAI/QU4", f"{step}/MAI/PY5")
 
     def filled(name, value):
         def change(file):
@@ -168,7 +168,7 @@ def bad_med_files_are_refused(chladni, folder):
 
     cases = {
         "more values than there are": (claimed, ("NOE/NUM", "claims more values than the file can hold")),
-        "solids": (renamed, ("TE4", "solid element", "mid-surface")),
+        "pyramids": (renamed, ("PY5", "a solid that Chladni does not have")),
         "polygons": (lambda file: file.create_group(f"{step}/MAI/POG"), ("POG", "not known")),
         "no such node": (filled(f"{step}/MAI/QU4/NOD", 9999), ("QU4/NOD", "no node 9999")),
         "no such family": (filled(f"{step}/MAI/QU4/FAM", -9), ("no family -9",)),

@@ -8,12 +8,14 @@ which agree with degree 7 to 1e-9. The sphere: Lamb's equations, roots of spheri
 
 import json
 import math
+import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from running import run, summary
+from running import run, start, summary
+from solid_files import STEEL, Block, abaqus_file, ansys_file, gmsh_file, med_file, nastran_file, universal_file
 
 # Hz, of the free annulus: n = 2, 0, 3, 1, 2 in its plane, 2; those of n > 0 stand twice.
 ANNULUS = [736.9524731] * 2 + [1202.7887257] + [1760.0313898] * 2 + [2626.5887121] * 2
@@ -190,6 +192,104 @@ def no_volume(programs, folder):
         yield f"faces with a section of solids: {said!r}"
 
 
+OF_A_FILE = """name = "block"
+[mesh]
+file = "{file}"
+length_unit = "mm"
+[material.steel]
+young = 210e9
+poisson = 0.3
+density = 7850.0
+[[section]]
+group = "{body}"
+type = "solid"
+material = "steel"
+[[support]]
+group = "{root}"
+dofs = ["x", "y", "z"]
+[modes]
+count = 8
+"""
+ABAQUS_TYPES = {("tet", 1): ["C3D4"], ("tet", 2): ["C3D10", "C3D10M"], ("wedge", 1): ["C3D6"], ("wedge", 2): ["C3D15"],
+                ("hex", 1): ["C3D8", "C3D8I", "C3D8R"], ("hex", 2): ["C3D20", "C3D20R"]}  # fmt: skip
+
+
+def files_of(block, folder):
+    """Files of one block by name, with the groups of the body and of the held nodes there."""
+    name = f"{block.shape}{block.order}"
+    texts = {f"{name}.msh": (gmsh_file(block), "body", "root"), f"{name}.unv": (universal_file(block), "body", "root"),
+             f"{name}.cdb": (ansys_file(block), "mat_1", "ROOT")}  # fmt: skip
+    for kind in ABAQUS_TYPES[block.shape, block.order]:
+        texts[f"{name}_{kind}.inp"] = abaqus_file(block, kind), "BODY", "ROOT"
+    for width in (0, 8, 16):
+        texts[f"{name}_{width}.bdf"] = nastran_file(block, width), "psolid_7", "spc_1_123"
+    for file, (text, _, _) in texts.items():
+        (folder / file).write_text(text)
+    med_file(block, folder / f"{name}.med")
+    return {file: groups for file, (_, *groups) in texts.items()} | {f"{name}.med": ["body", "root"]}
+
+
+def formats(programs, folder):
+    """The frequencies of one block are those of its .msh, whatever the format, and with the scene that is made of a deck."""
+    for shape in ("tet", "wedge", "hex"):
+        for order in (1, 2):
+            files = files_of(Block(shape, order), folder)
+            expected = None
+            for file, (body, root) in files.items():
+                scene = folder / f"{file}.toml"
+                scene.write_text(OF_A_FILE.format(file=file, body=body, root=root))
+                scenes = [scene]
+                if Path(file).suffix in (".inp", ".bdf", ".cdb"):
+                    scenes.append(folder / f"{file}.imported.toml")
+                    run(programs / "chladni", "import", folder / file, "--length-unit", "mm", "--output", scenes[-1])
+                for one in scenes:
+                    found = summary(programs / "chladni", "modes", one, "--output", folder / f"out_{one.name}")["frequencies_Hz"][:8]
+                    expected = expected or found
+                    off = error(found, expected)
+                    if not off < 1e-9:  # the order of sums differs
+                        yield f"{one.name}: {found} Hz instead of {expected} Hz, {off:.1e}"
+
+
+def faces(programs, folder):
+    """A pressure on the faces of a *SURFACE moves the block as one on a physical surface."""
+    load = '[[load]]\ntype = "pressure"\ngroup = "{}"\npressure = 1e6\n[static]\nreport = ["{}"]\n'
+    for shape, order in (("tet", 2), ("wedge", 2), ("hex", 1), ("hex", 2)):
+        block = Block(shape, order)
+        kind = ABAQUS_TYPES[shape, order][0]
+        (folder / "faces.msh").write_text(gmsh_file(block))
+        (folder / "faces.inp").write_text(abaqus_file(block, kind))
+        moved = []
+        for file, groups, top in (("faces.msh", ("body", "root"), "top"), ("faces.inp", ("BODY", "ROOT"), "surface_TOP")):
+            scene = OF_A_FILE.format(file=file, body=groups[0], root=groups[1]).replace("[modes]\ncount = 8\n", "")
+            (folder / "faces.toml").write_text(scene + load.format(top, top))
+            found = summary(programs / "chladni", "static", folder / "faces.toml", "--output", folder, "--overwrite")
+            moved.append([x for node in found["motions"][top] for x in node["motion"]])
+        size = max(map(abs, moved[0]))
+        if len(moved[0]) != len(moved[1]) or max(abs(a - b) for a, b in zip(*moved)) > 1e-9 * size:
+            yield f"pressure on the faces of {kind}: {moved[1][:6]} instead of {moved[0][:6]}"
+
+
+# Hz, of CalculiX 2.20: the block of hexahedra of order 2 (C3D20) with its nodes, in the seven digits that it prints.
+CALCULIX = [8023.261, 11208.39, 20382.57, 32367.27, 36519.71, 43254.87, 62358.63, 71656.98]
+
+
+def calculix(programs, folder):
+    """The block has the frequencies of CalculiX; where ccx is installed, it computes them anew."""
+    (folder / "ccx.inp").write_text(abaqus_file(Block("hex", 2), "C3D20") + "*Step\n*Frequency\n8\n*End Step\n")
+    (folder / "ccx.toml").write_text(OF_A_FILE.format(file="ccx.inp", body="BODY", root="ROOT"))
+    found = summary(programs / "chladni", "modes", folder / "ccx.toml", "--output", folder / "out_ccx")["frequencies_Hz"]
+    expected = [CALCULIX]
+    if shutil.which("ccx"):
+        done = start("ccx", "ccx", cwd=folder)
+        rows = [line.split() for line in (folder / "ccx.dat").read_text().splitlines()]
+        expected.append([float(row[3]) for row in rows if len(row) == 5 and row[0].isdigit()][:8])
+        if len(expected[1]) != 8:
+            yield f"ccx found {expected[1]}: {done.stdout[-300:]}"
+    for frequencies in expected:
+        if max(abs(f / e - 1.0) for f, e in zip(found, frequencies)) > 1e-6:  # half of the seventh digit, and more
+            yield f"block: {found} Hz, CalculiX has {frequencies} Hz"
+
+
 def example(programs, folder):
     """The solid disc with its bore held has the third pair of diameters of the shell of examples/thesis_disc to 2 %."""
     scene = Path(__file__).parents[2] / "examples/solid_disc/scene.toml"
@@ -226,6 +326,9 @@ def failures(programs, mpirun, folder):
     yield from loads(programs, folder)
     yield from refusals(programs, folder)
     yield from no_volume(programs, folder)
+    yield from formats(programs, folder)
+    yield from faces(programs, folder)
+    yield from calculix(programs, folder)
     yield from example(programs, folder)
     yield from few_ring_nodes(programs, folder)
 

@@ -1,4 +1,6 @@
 // Input files of Abaqus: what is taken over, and the sentences for what is not.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -86,8 +88,9 @@ TEST_F(AbaqusFile, IsReadInItsUnitByAProcessOfItsOwn)
 
 TEST_F(AbaqusFile, ErrorsNameFileLineAndKeyword)
 {
-  const std::string file = write("a.inp", abaqus_square + "*Element, type=C3D8R\n2, 1, 2, 3, 4\n");
-  expect_words(error_of({.file = file}), {"a.inp", "line 8", "*ELEMENT", "C3D8R", "mid-surface"});
+  const std::string file =
+      write("a.inp", abaqus_square + "*Element, type=C3D5\n2, 1, 2, 3, 4, 5\n");
+  expect_words(error_of({.file = file}), {"a.inp", "line 8", "*ELEMENT", "C3D5", "hexahedra"});
   expect_words(error_of({.file = path("absent.inp")}), {"absent.inp", "does not exist"});
 }
 
@@ -212,6 +215,132 @@ TEST(AbaqusDeck, HasInstancesOfParts)
   EXPECT_NEAR(area(mesh), 4.0, 1e-14);
 }
 
+/// A cube of side 2 with corners 1 to 8, and 11 to 22 in the middle of its edges.
+const std::string cube_nodes =
+    "*Node\n1, 0., 0., 0.\n2, 2., 0., 0.\n3, 2., 2., 0.\n4, 0., 2., 0.\n5, 0., 0., 2.\n6, 2., 0., "
+    "2.\n"
+    "7, 2., 2., 2.\n8, 0., 2., 2.\n11, 1., 0., 0.\n12, 2., 1., 0.\n13, 1., 2., 0.\n14, 0., 1., 0.\n"
+    "15, 1., 0., 2.\n16, 2., 1., 2.\n17, 1., 2., 2.\n18, 0., 1., 2.\n19, 0., 0., 1.\n20, 2., 0., "
+    "1.\n"
+    "21, 2., 2., 1.\n22, 0., 2., 1.\n";
+const std::string cube =
+    cube_nodes +
+    "*Element, type=C3D20R, elset=Body\n1, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 13, "
+    "14, 15, 16, 17\n18, 19, 20, 21, 22\n";
+const std::string solid_section = abaqus_steel + "*Solid Section, elset=Body, material=Steel\n,\n";
+const std::string tetrahedron = cube_nodes + "*Element, type=C3D4, elset=Body\n1, 1, 2, 4, 5\n";
+
+TEST(AbaqusSolids, AreTheElementsOfFullIntegrationAndHaveASection)
+{
+  const Deck deck = deck_of_abaqus(cube + solid_section);
+  const Mesh mesh = mesh_of(deck, {.solid_groups = {"BODY"}});
+  ASSERT_EQ(mesh.blocks.size(), 1U);
+  EXPECT_EQ(mesh.blocks[0].shape, Shape::hexahedron);
+  EXPECT_EQ(mesh.blocks[0].order, 2);
+  EXPECT_EQ(mesh.node_numbers[std::size_t(mesh.blocks[0].nodes[19])], 22);
+  EXPECT_EQ(find_group(mesh, "BODY").dimension, 3);
+  expect_words(deck.notes.at(0), {"1 elements C3D20R", "full integration"});
+  const Declarations declared = declared_by_abaqus(cube + solid_section, 1e-3);
+  ASSERT_EQ(declared.solids.size(), 1U);
+  EXPECT_EQ(declared.solids[0].group, "BODY");
+  EXPECT_EQ(declared.solids[0].material, "STEEL");
+}
+
+TEST(AbaqusSolids, HaveSurfacesOfFaces)
+{
+  // The plane in which the nodes of each face of the cube are.
+  const std::array<std::pair<std::size_t, double>, 6> planes{
+      {{2, 0.0}, {2, 2.0}, {1, 0.0}, {0, 2.0}, {1, 2.0}, {0, 0.0}}};
+  for (std::size_t f = 0; f < planes.size(); ++f) {
+    const std::string surface = fmt::format("*Surface, name=F, type=ELEMENT\nBody, S{}\n", f + 1);
+    const Mesh mesh = mesh_of(deck_of_abaqus(cube + surface), {});
+    const Group& group = find_group(mesh, "surface_F");
+    EXPECT_EQ(group.dimension, 2);
+    EXPECT_EQ(group.nodes.size(), 8U);
+    const auto& [axis, value] = planes[f];
+    for (const int node : group.nodes)
+      EXPECT_EQ(mesh.positions[std::size_t(node)][axis], value) << surface;
+  }
+}
+
+/// The middle of an edge inside of the body would not be held, though both ends are.
+TEST(AbaqusSolids, OfFourNodesGetMiddlesThatAreHeldOnTheSkinAlone)
+{
+  const std::string two =
+      tetrahedron + "*Node\n30, 1., 1., 1.\n*Element, type=C3D4, elset=Body\n2, 2, 30, 4, 5\n" +
+      "*Nset, nset=Face\n1, 2, 4\n*Nset, nset=Edge\n2, 4\n";
+  const Mesh mesh = mesh_of(deck_of_abaqus(two), {});
+  ASSERT_EQ(mesh.blocks.size(), 1U);
+  EXPECT_EQ(mesh.blocks[0].order, 2);
+  EXPECT_EQ(mesh.n_nodes(), 5 + 9);
+  EXPECT_EQ(find_group(mesh, "FACE").nodes.size(), 6U);
+  EXPECT_EQ(find_group(mesh, "EDGE").nodes.size(), 3U);
+  EXPECT_NE(mesh.notes.at(0).find("far too stiff"), std::string::npos);
+}
+
+TEST(AbaqusSolids, AreLeftOutWhereOnlyShellsHaveSections)
+{
+  const std::string both = cube + "*Element, type=S4, elset=Plate\n7, 1, 2, 3, 4\n";
+  const Mesh of_shells = mesh_of(deck_of_abaqus(both), {.shell_groups = {"PLATE"}});
+  ASSERT_EQ(of_shells.blocks.size(), 1U);
+  EXPECT_EQ(of_shells.blocks[0].shape, Shape::quadrilateral);
+  expect_words(of_shells.notes.at(1), {"1 solid elements are left out"});
+  const Mesh of_solids = mesh_of(deck_of_abaqus(both), {.solid_groups = {"BODY"}});
+  ASSERT_EQ(of_solids.blocks.size(), 1U);
+  EXPECT_EQ(of_solids.blocks[0].shape, Shape::hexahedron);
+  EXPECT_EQ(find_group(of_solids, "PLATE").nodes.size(), 4U);
+}
+
+/// Gmsh writes the elements of each volume under a name of its own, and its groups as sets of them.
+TEST(AbaqusSolids, MayHaveTheirSectionByASetThatTheDeckGivesNone)
+{
+  const std::string sets =
+      tetrahedron + "*Element, type=CPS3, elset=Surface1\n2, 1, 2, 4\n" + "*Elset, elset=Disc\n1\n";
+  const Mesh mesh = mesh_of(deck_of_abaqus(sets), {.solid_groups = {"DISC"}});
+  const int group = mesh.blocks.at(0).group.at(0);
+  EXPECT_EQ(mesh.groups[std::size_t(group)].name, "DISC");
+  EXPECT_EQ(find_group(mesh, "DISC").dimension, 3);
+  EXPECT_EQ(find_group(mesh, "SURFACE1").nodes.size(), 6U);
+}
+
+class RefusedSolid : public ::testing::TestWithParam<Refusal> {};
+
+TEST_P(RefusedSolid, IsNamedWithItsLine)
+{
+  try {
+    mesh_of(deck_of_abaqus(GetParam().text), {});
+    FAIL() << GetParam().text;
+  } catch (const Error& error) {
+    expect_refused(GetParam(), error.what());
+  }
+}
+
+const std::string c3d4 = cube_nodes + "*Element, type=C3D4, elset=Body\n";
+const std::vector<Refusal> refused_solids{
+    {c3d4 + "1, 1, 4, 2, 5\n", {"line 23", "element 1 is inside out", "first 3 nodes"}},
+    {c3d4 + "1, 1, 2, 4, 4\n", {"line 23", "element 1 has the node 4 twice"}},
+    {c3d4 + "1, 1, 2, 4, 99\n", {"line 23", "element 1: its node 99 is not there"}},
+    {c3d4 + "1, 1, 2, 4, 5, 11\n", {"line 23", "4 nodes"}},
+    {cube_nodes + "*Element, type=C3D10, elset=Body\n1, 1, 2, 4, 5, 11, 12, 13, 14, 19\n",
+     {"line 23", "10 nodes"}},
+    {tetrahedron + "*Surface, name=F\n1, S5\n", {"line 25", "element 1 has no face S5"}},
+    {tetrahedron + "*Surface, name=F\n1,\n", {"line 25", "is a solid; name its face"}},
+    {cube + "*Element, type=C3D8\n2, 4, 3, 31, 32, 8, 7, 33, 34\n*Node\n31, 2., 4., 0.\n"
+            "32, 0., 4., 0.\n33, 2., 4., 2.\n34, 0., 4., 2.\n",
+     {"line 24: element 1 has a node between 3 and 4", "line 26: element 2 has none"}},
+    {cube + "*Element, type=S4, elset=Plate\n7, 1, 2, 3, 4\n" + abaqus_steel +
+         "*Solid Section, elset=Plate, material=Steel\n",
+     {"*SOLID SECTION", "element 7 of the type S4"}}};
+
+INSTANTIATE_TEST_SUITE_P(Abaqus, RefusedSolid, ::testing::ValuesIn(refused_solids));
+
+TEST(AbaqusDeclarations, RefuseAVolumeWithoutASection)
+{
+  expect_words(
+      error_in_abaqus(cube + "*Element, type=C3D4, elset=Rest\n2, 1, 2, 4, 5\n" + solid_section),
+      {"line 26", "element 2 is of \"REST\"", "no section"});
+}
+
 class RefusedKeyword : public ::testing::TestWithParam<Refusal> {};
 
 TEST_P(RefusedKeyword, IsNamedWithItsLine)
@@ -231,7 +360,8 @@ const std::vector<Refusal> refused_keywords{
     {abaqus_plate + "*Boundary\n1, 1\n*Step\n*Boundary, op=NEW\n2, 1\n*End Step\n",
      {"line 18", "OP = NEW"}},
     {abaqus_plate + "*Surface, name=S\n17, SPOS\n", {"line 16", "no element 17"}},
-    {abaqus_plate + "*Surface, name=S\n1, S3\n", {"line 16", "SPOS or SNEG"}},
+    {abaqus_plate + "*Surface, name=S\n1, S3\n", {"line 16", "element 1 has no face S3"}},
+    {abaqus_plate + "*Surface, name=S\n1, T3\n", {"line 16", "SPOS or SNEG"}},
     {abaqus_plate + "*Node, system=C\n5, 1.\n", {"*NODE", "SYSTEM"}},
     {abaqus_plate + "*Node\n1, 1.\n", {"line 16", "node 1", "twice"}},
     {abaqus_plate + "*Node\n5, a\n", {"line 16", "\"A\" is no number"}},
@@ -240,7 +370,8 @@ const std::vector<Refusal> refused_keywords{
     {abaqus_plate + "*Element, type=S4\n1, 1, 2, 3, 4\n", {"element 1", "twice"}},
     {abaqus_plate + "*Element, type=S9R5\n", {"S9R5", "not known"}},
     {abaqus_plate + "*Element, type=S4\n5, 1, 2, 3,\n", {"ends with a comma"}},
-    {abaqus_plate + "*Element, type=B31, elset=Plate\n5, 1, 2\n", {"PLATE", "shells and beams"}},
+    {abaqus_plate + "*Element, type=B31, elset=Plate\n5, 1, 2\n",
+     {"*SHELL SECTION", "\"PLATE\"", "element 5", "B31"}},
     {abaqus_plate + "*Nset, nset=N\nAbsent\n", {"line 16", "no set \"ABSENT\""}},
     {abaqus_plate + "*Nset, nset=N, generate\n5, 1\n", {"line 16", "no range"}},
     {abaqus_plate + "*Boundary\nAbsent, 1\n", {"no node set \"ABSENT\""}},

@@ -52,7 +52,10 @@ TEST_F(MeshFile, OfSolidsOrCurvesOnlyIsRefused)
       gmsh::model::mesh::generate(dimension);
     });
   };
-  expect_words(error_of({.file = save_dimension(3)}), {"solid", " and 0 line", "mid-surface"});
+  expect_words(error_of({.file = save_dimension(3), .shell_groups = {"plate"}}),
+               {"solid", " and 0 line", "mid-surface"});
+  EXPECT_EQ(generate({.file = save_dimension(3)}).blocks.at(0).shape, Shape::tetrahedron)
+      << "where no section says what it is";
   expect_words(error_of({.file = save_dimension(1)}), {"0 solid", "neither surface elements"});
 }
 

@@ -176,7 +176,40 @@ TEST_F(MeshFile, OfStepWithASolidIsRefused)
     gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1);
     gmsh::model::occ::synchronize();
   });
-  expect_words(error_of({.file = file, .element_size = 0.1}), {"1 solids", "mid-surface"});
+  expect_words(error_of({.file = file, .element_size = 0.1}),
+               {"1 solids", "volume_1", "mid-surface"});
+}
+
+/// A ring of 60 by 160 mm, 20 mm thick, on a block.
+TEST_F(MeshFile, OfStepWithVolumesIsOfSolidsThatMeet)
+{
+  const std::string file = save("a.step", [] {
+    const int outer = gmsh::model::occ::addCylinder(0, 0, 0, 0, 0, 20, 160);
+    const int inner = gmsh::model::occ::addCylinder(0, 0, 0, 0, 0, 20, 60);
+    std::vector<std::pair<int, int>> all;
+    std::vector<std::vector<std::pair<int, int>>> parts;
+    gmsh::model::occ::cut({{3, outer}}, {{3, inner}}, all, parts);
+    gmsh::model::occ::addBox(80, -30, -30, 60, 60, 30);
+    gmsh::model::occ::synchronize();
+  });
+  const Mesh mesh = generate({.file = file,
+                              .element_size = 0.03,
+                              .rings = {{.name = "top", .radius = 0.13, .nodes = 24, .z = 0.02}},
+                              .solid_groups = {"volume_1", "volume_2"}});
+  ASSERT_EQ(mesh.blocks.size(), 1U);
+  EXPECT_EQ(mesh.blocks[0].shape, Shape::tetrahedron);
+  EXPECT_EQ(mesh.blocks[0].order, 2);
+  const Group &ring = find_group(mesh, "volume_1"), &block = find_group(mesh, "volume_2");
+  EXPECT_EQ(ring.dimension, 3);
+  std::vector<int> common;
+  std::ranges::set_intersection(ring.nodes, block.nodes, std::back_inserter(common));
+  EXPECT_GE(common.size(), 20U) << "the block is joined to the ring";
+  for (const int node : common) EXPECT_NEAR(mesh.positions[std::size_t(node)][2], 0.0, 1e-9);
+  const Group& top = find_group(mesh, "top");
+  ASSERT_EQ(top.nodes.size(), 24U);
+  EXPECT_EQ(mesh.positions[std::size_t(top.nodes[6])][1], 0.13);
+  expect_words(error_of({.file = file, .element_size = 0.03, .shell_groups = {"surface_1"}}),
+               {"2 solids", "volume_1"});
 }
 
 }  // namespace

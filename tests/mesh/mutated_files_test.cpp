@@ -126,5 +126,17 @@ TEST_F(MutatedFile, OfNastranEndsInASentence)
   expect_sentences("f.bdf", golden, with_other_bytes, Trust::owner);
 }
 
+TEST_F(MutatedFile, OfSolidsEndsInASentence)
+{
+  const std::string corpus = CHLADNI_SOURCE_DIR "/tests/fuzz/corpus/";
+  for (const char* name :
+       {"deck/block.cdb", "deck/solids.bdf", "deck/solids.inp", "exchange/solids.unv"}) {
+    const std::string file = name, extension = file.substr(file.size() - 4);
+    const std::string golden = bytes_of(corpus + file);
+    expect_sentences("k" + extension, golden, with_other_numbers, Trust::owner);
+    expect_sentences("l" + extension, golden, with_other_bytes, Trust::owner);
+  }
+}
+
 }  // namespace
 }  // namespace chladni::mesh

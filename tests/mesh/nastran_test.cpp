@@ -264,12 +264,45 @@ TEST_F(NastranFile, IsReadInItsUnitByAProcessOfItsOwn)
 
 TEST_F(NastranFile, ErrorsNameFileLineAndCard)
 {
-  const std::string file = write("a.bdf", nastran_square + "CHEXA,2,7,1,2,3,4,5,6\n");
-  expect_words(error_of({.file = file}), {"a.bdf", "line 6", "CHEXA 2", "mid-surface"});
+  const std::string file = write("a.bdf", nastran_square + "CPYRAM,2,7,1,2,3,4,5\n");
+  expect_words(error_of({.file = file}), {"a.bdf", "line 6", "CPYRAM 2", "hexahedra"});
   expect_words(error_of({.file = write("b.bdf", nastran_square + "CQUAD4,2,7,1,2,3,44\n")}),
                {"b.bdf", "element 2", "node 44"});
   expect_words(error_of({.file = path("absent.bdf")}), {"absent.bdf", "does not exist"});
-  expect_words(error_of({.file = write("c.bdf", "")}), {"c.bdf", "neither shell elements"});
+  expect_words(error_of({.file = write("c.bdf", "")}), {"c.bdf", "neither solids nor shells"});
+}
+
+/// A corner of a cube, with one of six middle nodes.
+const std::string nastran_tetrahedron =
+    "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,0.,2.,0.\nGRID,4,,0.,0.,2.\nGRID,9,,0.,0.,1.1\n";
+
+TEST(NastranSolids, MayLackMiddleNodesAndHaveAProperty)
+{
+  const std::string text = nastran_tetrahedron + "CTETRA,1,8,1,2,3,4,,\n,,9\nSPC1,4,123,1,2,3\n" +
+                           "PSOLID,8,9,,TWO,,REDUCED\nMAT1,9,2.1+5,,.3,7.85-9\n";
+  const Mesh mesh = mesh_of(deck_of_nastran(text), {.solid_groups = {"psolid_8"}});
+  ASSERT_EQ(mesh.blocks.size(), 1U);
+  EXPECT_EQ(mesh.blocks[0].nodes_per_element, 10);
+  EXPECT_EQ(mesh.node_numbers[std::size_t(mesh.blocks[0].nodes[7])], 9) << "between 1 and 4";
+  EXPECT_EQ(find_group(mesh, "spc_4_123").nodes.size(), 6U);
+  expect_words(mesh.notes.at(0), {"5 middle nodes", "numbered from 10"});
+  const Declarations declared = declared_by_nastran(text, 1e-3);
+  ASSERT_EQ(declared.solids.size(), 1U);
+  EXPECT_EQ(declared.solids[0].group, "psolid_8");
+  EXPECT_EQ(declared.solids[0].material, "mat1_9");
+  expect_words(declared.notes.at(0), {"PSOLID 8", "full integration"});
+}
+
+TEST(NastranSolids, BesideShellsAreTakenByTheirSection)
+{
+  const std::string text = nastran_tetrahedron + "CTETRA,1,8,1,2,3,4\nCTRIA3,2,7,1,2,3\n";
+  const Mesh solids = mesh_of(deck_of_nastran(text), {.solid_groups = {"psolid_8"}});
+  ASSERT_EQ(solids.blocks.size(), 1U);
+  EXPECT_EQ(solids.blocks[0].order, 2) << "four nodes are too few";
+  EXPECT_EQ(find_group(solids, "pshell_7").nodes.size(), 6U) << "with the middles";
+  const Mesh shells = mesh_of(deck_of_nastran(text), {.shell_groups = {"pshell_7"}});
+  ASSERT_EQ(shells.blocks.size(), 1U);
+  EXPECT_EQ(shells.blocks[0].shape, Shape::triangle);
 }
 
 TEST(NastranDeclarations, AreInSI)
@@ -475,7 +508,9 @@ const std::vector<Refusal> refused_cards{
     {nastran_plate + "CBAR,3,5,1,2,0.,0.,1.\nPBARL,5,9,,TUBE\n,1.,1.\n",
      {"PBARL 5", "inner radius"}},
     {nastran_plate + "CBAR,3,5,1,2,0.,0.,1.\nPBARL,5,9,,BAR\n,1.,1.,2.\n", {"PBARL 5", "NSM"}},
-    {nastran_plate + "CTETRA,5,7,1,2,3,4\n", {"CTETRA 5", "solid"}},
+    {nastran_plate + "CTETRA,5,7,1,2,3\n", {"CTETRA 5", "field 7", "number of a node"}},
+    {nastran_plate + "CTETRA,5,8,1,2,3,4\n", {"element 5 is of psolid_8", "no such property"}},
+    {nastran_plate + "CTETRA,5,8,1,2,3,4\nPSOLID,8,9,,,,,PFLUID\n", {"PSOLID 8", "PFLUID"}},
     {nastran_plate + "INCLUDE 'more.bdf'\n", {"line 8", "more.bdf"}},
     {nastran_plate + "GRID,1,,0.,0.,0.\n", {"GRID 1", "twice"}},
     {nastran_plate + "GRID,5,3,0.,0.,0.\n", {"GRID 5", "no coordinate system 3"}},

@@ -145,7 +145,7 @@ TEST(Unv, RefusesWhatIsWrongOrNotKnown)
 {
   const std::vector<Refusal> refusals{
       {"1 2 3\n", {"\"1 2 3\"", "where a dataset begins"}},
-      {six_nodes + dataset("2412", "1 111 1 1 7 4\n1 2 3 4\n"), {"solid element", "mid-surface"}},
+      {six_nodes + dataset("2412", "1 117 1 1 7 4\n1 2 3 4\n"), {"descriptor 117", "a solid that"}},
       {six_nodes + dataset("2412", "1 136 1 1 7 2\n1 2\n"), {"descriptor 136"}},
       {six_nodes + dataset("2412", "1 94 1 1 7 3\n1 2 3\n"), {"3 nodes", "has 4"}},
       {six_nodes + dataset("2412", "1 94 1 1 7 99\n"), {"has 99 nodes"}},

@@ -220,9 +220,9 @@ TEST(SceneMesh, HoldsWhatAFileNeeds)
 TEST(SceneMeshError, NamesWhatAFileDoesNotTake)
 {
   EXPECT_EQ(mesh_error("file = \"a.iges\"\n"),
-            "scene.toml:2: mesh.file = \"a.iges\": must be a mesh file: .msh, .geo, .step, .stp, "
-            ".unv, .med, .mmed, .bdf, .nas, .dat or .inp (a deck of Nastran or, the last one, of "
-            "Abaqus)");
+            "scene.toml:2: mesh.file = \"a.iges\": must be a mesh file: .msh, .geo (Gmsh), "
+            ".step, .stp (STEP), .unv (universal files), .med, .mmed (MED), .bdf, .nas, .dat "
+            "(Nastran), .inp (Abaqus), .cdb (Ansys)");
   EXPECT_NE(mesh_error("file = \"a.vtu\"\n").find("meshio makes a .msh of a .vtu"),
             std::string::npos);
   EXPECT_NE(mesh_error("file = \"a.geo\"\ndoubled_elements = \"keep\"\n").find("is for decks"),
