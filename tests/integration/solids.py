@@ -160,7 +160,6 @@ report = ["top_face"]
 
 REFUSED = {
     'type = "solid"|type = "shell"\nthickness = 0.02': "`extrude` makes solids",
-    '[modes]|[[coupling]]\ntype = "rigid"\nname = "hub"\ngroup = "inner_edge"\n[modes]': "needs rotations",
     '[modes]|[model]\ndofs = ["z", "rx", "ry"]\n[modes]': "no other DOF",
     "element_order = 2|element_order = 4": "hexahedra of order 1 to 3",
     'pattern = "structured"|pattern = "structured"\nsectors = 6': "whole body",
@@ -191,7 +190,7 @@ def no_volume(programs, folder):
 
 
 def example(programs, folder):
-    """The solid disc with its bore held has the third pair of diameters of the shell of examples/thesis_disc to 2 %."""
+    """The solid disc with its hub held has the third pair of diameters of the shell of examples/thesis_disc to 2 %."""
     scene = Path(__file__).parents[2] / "examples/solid_disc/scene.toml"
     said = run(programs / "chladni", "mesh", scene, "--quality", "--output", folder)
     if "sectors" in said or "surface elements" in said:
