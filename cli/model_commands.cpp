@@ -96,7 +96,6 @@ void write_picture(const PictureFiles& files, const Subject& subject, const mesh
 void tell_of_sectors(const Subject& subject, const mesh::Mesh& mesh)
 {
   if (subject.mesh.sector_search == mesh::SectorSearch::asked || mesh.sectors.count > 1) return;
-  if (!subject.mesh.solid_groups.empty()) return;  // which sectors do not take
   const int count = mesh::n_repetitions(mesh);
   if (count < 3) return;
   fmt::print(

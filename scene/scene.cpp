@@ -99,8 +99,6 @@ void refuse_beside_solids(const Table& root, const Scene& scene)
 {
   if (scene.solids.empty()) return;
   if (scene.accuracy) root.refuse("accuracy", "is for shells and beams; give solids a mesh");
-  if (scene.mesh.sectors > 1)
-    root.table("mesh").refuse("sectors", "is for shells and beams; mesh the whole body of solids");
   if (scene.mesh_errors) {
     root.table("reduce").refuse("mesh_errors",
                                 "is for shells and beams; compare solids with a finer mesh");
@@ -131,7 +129,6 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
   for (const plate::BeamSection& beam : scene.beams) scene.mesh.line_groups.push_back(beam.group);
   for (const auto& shell : scene.sections) scene.mesh.shell_groups.push_back(shell.group);
   for (const auto& solid : scene.solids) scene.mesh.solid_groups.push_back(solid.group);
-  if (!scene.solids.empty()) scene.mesh.sector_search = mesh::SectorSearch::none;
   scene.couplings = read_couplings(root, scene);
   for (const plate::Coupling& coupling : scene.couplings) {
     if (coupling.kind == plate::CouplingKind::averaging) continue;

@@ -73,6 +73,8 @@ class DofMap : RingMotions {
       RingMotions::is_independent, RingMotions::is_plain, RingMotions::motion;
   using RingMotions::first_number, RingMotions::n_active, RingMotions::n_independent,
       RingMotions::number;
+  /// The second number of a node, of its rotations; -1 without one.
+  int rotation_number(int node) const { return rotation_numbers[static_cast<std::size_t>(node)]; }
   using RingMotions::has_rotations;
   using RingMotions::is_dependent, RingMotions::n_mesh_nodes, RingMotions::n_nodes,
       RingMotions::named_nodes, RingMotions::position, RingMotions::reference,

@@ -336,6 +336,32 @@ def reductions(programs, folder, mpirun):
         yield f"disc with a hub: mass {told}, not {mass}"
 
 
+def sectors(programs, folder):
+    """One sector of a disc with a hub, or the whole mesh cut by the program, has the frequencies of the whole disc."""
+    found = []
+    for key in "", "sectors = 6\n", 'sectors = "auto"\n':
+        scene = changed(DISC + REDUCED, ("[mesh]\n", "[mesh]\n" + key), ("METHOD", 'method = "rubin"\nmodes = 20'),
+                        ("rx = 2e4", "rx = 2e4, ry = 2e4"))  # fmt: skip
+        (folder / "scene.toml").write_text(scene)
+        found.append(summary(programs / "chladni", "run", folder / "scene.toml", "--output", folder / f"s{len(found)}"))
+    for sector in found[1:]:
+        apart = max(map(off, sector["frequencies_Hz"][3:], found[0]["frequencies_Hz"][3:]))
+        print(f"disc with a hub by sectors: {apart:.1e} from the whole, {sector['n_rigid']} rigid motions")
+        if not apart < 1e-9 or sector["n_rigid"] != 3 or found[0]["n_rigid"] != 3:
+            yield f"disc by sectors: {sector['frequencies_Hz']} Hz, whole {found[0]['frequencies_Hz']}"
+
+
+# A sector of tetrahedra whose cut faces have other nodes.
+UNLIKE_GEO = """
+SetFactory("OpenCASCADE");
+Point(1) = {0.03,0,0}; Point(2) = {0.16,0,0}; Point(3) = {0.16,0,0.02}; Point(4) = {0.03,0,0.02};
+Line(1) = {1,2}; Line(2) = {2,3}; Line(3) = {3,4}; Line(4) = {4,1}; Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+e[] = Extrude { {0,0,1}, {0,0,0}, Pi/3 } { Surface{1}; };
+MeshSize{ PointsOf{ Volume{:}; } } = 0.02; MeshSize{ PointsOf{ Surface{1}; } } = 0.011;
+Physical Volume("block") = {e[1]};
+"""
+
+
 def refusals(programs, folder):
     on_nodes = changed(BAR, ('group = "end"\nmoment', 'group = "left"\nmoment'), ("clamped", "simply-supported"))
     for scene in BAR + '[[mass]]\nat = "top_face"\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n', on_nodes:
@@ -343,6 +369,12 @@ def refusals(programs, folder):
         done = start(programs / "chladni", "static", folder / "scene.toml", "--output", folder, "--overwrite")
         if done.returncode != 1 or "of a solid has no rotations" not in done.stderr or done.stderr.count("\n") > 3:
             yield f"refusal: code {done.returncode}, {done.stderr[-300:]!r}"
+    (folder / "rod.geo").write_text(UNLIKE_GEO)
+    scene = ROD[: ROD.index("OTHER_SECTION")].replace("[mesh]", "[mesh]\nsectors = 6")
+    (folder / "scene.toml").write_text(scene)
+    said = run(programs / "chladni", "mesh", folder / "scene.toml", "--output", folder, code=1)
+    if "the cut faces do not match: node" not in said:
+        yield f"sector with unlike cut faces: {said!r}"
 
 
 def failures(programs, mpirun, folder):
@@ -351,6 +383,7 @@ def failures(programs, mpirun, folder):
     yield from beside_beams_and_shells(programs, folder, mpirun)
     yield from hub(programs, folder)
     yield from reductions(programs, folder, mpirun)
+    yield from sectors(programs, folder)
     yield from refusals(programs, folder)
 
 
