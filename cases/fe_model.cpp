@@ -22,7 +22,7 @@ std::string name_of_dof(const FeModel& fe, PetscInt dof)
 {
   const plate::DofMap& dofs = fe.system.dofs;
   for (int node = 0; node < dofs.n_nodes(); ++node) {
-    for (const int c : dofs.components()) {
+    for (const int c : dofs.components_of(node)) {
       if (dofs.dof(node, c) != dof) continue;
       const Eigen::Vector3d x = dofs.position(node);
       return fmt::format("node {} ({:.6g}, {:.6g}, {:.6g}), {}", node_number(fe.mesh, dofs, node),
@@ -84,7 +84,7 @@ void add_node_masters(Attachments& attachments, const plate::DofMap& dofs)
   for (int i = 0; i < std::ssize(attachments.nodes); ++i) {
     const int node = attachments.nodes[static_cast<std::size_t>(i)];
     if (is_of_ring(dofs, node)) continue;
-    for (const int c : dofs.components()) {
+    for (const int c : dofs.components_of(node)) {
       attachments.masters.push_back({.node = i, .component = c});
       attachments.master_dofs.push_back(dofs.dof(node, c).value());
     }
@@ -98,15 +98,14 @@ void add_ring_masters(Attachments& attachments, const plate::DofMap& dofs)
         std::ranges::find(attachments.sets, ring.name, &mbs_export::AttachmentSet::name);
     for (int k = 0; k < ring.n_wanted(); ++k) {
       const plate::Harmonic harmonic = plate::harmonic_of(k);
-      for (const int c : dofs.components()) {
+      for (const int c : dofs.components_of(ring.nodes.front())) {
         attachments.masters.push_back({.node = -1,
                                        .component = c,
                                        .harmonic = mbs_export::RingHarmonic{
                                            .set = static_cast<int>(set - attachments.sets.begin()),
                                            .order = harmonic.order,
                                            .is_sine = harmonic.is_sine}});
-        attachments.master_dofs.push_back(
-            dofs.dof_of_number(ring.numbers[static_cast<std::size_t>(k)], c).value());
+        attachments.master_dofs.push_back(dofs.harmonic_dof(ring, k, c).value());
       }
     }
   }
@@ -115,7 +114,7 @@ void add_ring_masters(Attachments& attachments, const plate::DofMap& dofs)
 void check_independent(const mesh::Mesh& mesh, const plate::DofMap& dofs, const std::string& name,
                        int node)
 {
-  for (const int component : dofs.components()) {
+  for (const int component : dofs.components_of(node)) {
     if (dofs.dof(node, component) || is_of_ring(dofs, node)) continue;
     const std::string& followed = dofs.followed(node);
     throw Error(

@@ -86,7 +86,8 @@ void check_supported(const scene::Scene& scene, const SupportedModel& model)
   throw Error(fmt::format(
       "{}: {} of {} nodes around ({:.4g}, {:.4g}, {:.4g}) m can move freely in {}; hold it with a "
       "[[support]] or connect it to the rest",
-      scene.path, part.n_nodes == model.system.dofs.n_active() ? "the body" : "a part of the body",
+      scene.path,
+      part.n_nodes == model.system.dofs.n_independent() ? "the body" : "a part of the body",
       part.n_nodes, part.centre[0], part.centre[1], part.centre[2], describe_motions(part)));
 }
 

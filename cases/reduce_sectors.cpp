@@ -189,11 +189,12 @@ cyclic::SectorMotion interface_motion(const cyclic::HarmonicModel& harmonic,
   std::vector<int> dofs;
   std::vector<Index> rows;
   for (Index i = 0; i < std::ssize(model.interface.nodes); ++i) {
-    for (std::size_t k = 0; k < components.size(); ++k) {
-      dofs.push_back(model.interface.nodes[std::size_t(i)].block *
-                         static_cast<int>(components.size()) +
-                     static_cast<int>(k));
-      rows.push_back(6 * i + components[k]);
+    const SectorNode& node = model.interface.nodes[std::size_t(i)];
+    for (const int block : {node.block, node.rotations}) {
+      for (int k = 0; block >= 0 && k < std::ssize(components); ++k) {
+        dofs.push_back(block * static_cast<int>(components.size()) + k);
+        rows.push_back(6 * i + model.dofs.component(block, k));
+      }
     }
   }
   const cyclic::SectorMotion known = cyclic::sector_motion(harmonic, dofs);

@@ -95,6 +95,8 @@ std::vector<std::array<int, 2>> edge_blocks(const SectorModel& model)
   for (const auto& [low, high] : model.mesh.sectors.pairs) {
     if (!dofs.is_dependent(low) && !dofs.is_dependent(high)) {
       blocks.push_back({dofs.number(low), dofs.number(high)});
+      if (dofs.rotation_number(low) >= 0)
+        blocks.push_back({dofs.rotation_number(low), dofs.rotation_number(high)});
       continue;
     }
     const int from = dofs.is_dependent(low) ? dofs.reference(low) : low;
@@ -106,6 +108,16 @@ std::vector<std::array<int, 2>> edge_blocks(const SectorModel& model)
         model.mesh.node_numbers[std::size_t(low)], model.mesh.node_numbers[std::size_t(high)]));
   }
   return blocks;
+}
+
+/// Empty where no node has a second block.
+std::vector<char> rotating_blocks(const plate::DofMap& dofs)
+{
+  std::vector<char> rotating(std::size_t(dofs.n_active()), 0);
+  for (int node = 0; node < dofs.n_nodes(); ++node)
+    if (const int block = dofs.rotation_number(node); block >= 0) rotating[std::size_t(block)] = 1;
+  if (std::ranges::count(rotating, 1) == 0) rotating.clear();
+  return rotating;
 }
 
 int highest_harmonic(const scene::Scene& scene, const std::string& ring, int n_nodes)
@@ -122,6 +134,12 @@ void add_ring(const scene::Scene& scene, SectorModel& model, const std::string& 
   cyclic::Ring ring{};
   std::vector<SectorNode> own;
   for (const int node : nodes) {
+    if (dofs.rotation_number(node) >= 0) {
+      throw Error(fmt::format(
+          "sectors: \"{}\" is a ring of nodes with rotations in a model with solids, which is no "
+          "interface of a sector; take a ring of the solid, or mesh the whole body",
+          name));
+    }
     const double angle = angle_of(dofs.position(node));
     ring.blocks.push_back(dofs.number(node));
     ring.angles.push_back(angle);
@@ -168,6 +186,7 @@ void add_interface(const scene::Scene& scene, SectorModel& model)
     if (nodes.size() == 1 && is_on_axis(model, nodes[0])) {
       model.interface.nodes.push_back({.node = nodes[0],
                                        .block = dofs.number(nodes[0]),
+                                       .rotations = dofs.rotation_number(nodes[0]),
                                        .ring = -1,
                                        .angle = 0.0,
                                        .drilling_axis = axes.row(nodes[0])});
@@ -181,8 +200,11 @@ void add_interface(const scene::Scene& scene, SectorModel& model)
 /// Nodes on the axis are masters, or the harmonics would not know them.
 void add_axis(SectorModel& model)
 {
-  for (const SectorNode& node : model.interface.nodes)
-    if (node.ring < 0) model.dofs.axis.push_back(node.block);
+  for (const SectorNode& node : model.interface.nodes) {
+    if (node.ring >= 0) continue;
+    model.dofs.axis.push_back(node.block);
+    if (!model.dofs.rotating.empty()) model.dofs.axis_rotations.push_back(node.rotations);
+  }
   const plate::DofMap& dofs = model.system.dofs;
   for (int node = 0; node < dofs.n_nodes(); ++node) {
     if (dofs.is_dependent(node) || !is_on_axis(model, node)) continue;
@@ -218,10 +240,11 @@ SectorModel sector_model(const scene::Scene& scene, mesh::Mesh mesh)
   model.system = plate::assemble(model.mesh, structure, std::move(dofs), PETSC_COMM_SELF);
   model.dofs = {.count = model.mesh.sectors.count,
                 .n_blocks = model.system.dofs.n_active(),
-                .components = scene.components,
+                .components = model.system.dofs.components(),
                 .edges = edge_blocks(model),
                 .axis = {},
-                .rings = {}};
+                .rings = {},
+                .rotating = rotating_blocks(model.system.dofs)};
   add_interface(scene, model);
   add_axis(model);
   return model;
@@ -392,8 +415,8 @@ std::optional<cyclic::Mirror> mirror_of(const SectorModel& model,
   Eigen::MatrixX3d positions(model.dofs.n_blocks, 3);
   // A mean has no block of its own: its DOFs stand in those of its group.
   for (int node = 0; node < dofs.n_nodes(); ++node)
-    if (!dofs.is_dependent(node) && dofs.number(node) >= 0)
-      positions.row(dofs.number(node)) = dofs.position(node);
+    for (const int block : {dofs.number(node), dofs.rotation_number(node)})
+      if (!dofs.is_dependent(node) && block >= 0) positions.row(block) = dofs.position(node);
   return cyclic::find_mirror(model.dofs, positions,
                              {&matrices.K, &matrices.M, &matrices.C, &matrices.H});
 }

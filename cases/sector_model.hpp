@@ -17,10 +17,11 @@ namespace chladni::cases {
 
 /// An interface node of the sector, as it is written to the file.
 struct SectorNode {
-  int node;      ///< of the DofMap
-  int block;     ///< of the sector's DOFs
-  int ring;      ///< index in SectorDofs::rings; -1 on the axis
-  double angle;  ///< rad, in [0, 2 pi) before the turns
+  int node;            ///< of the DofMap
+  int block;           ///< of the sector's DOFs
+  int rotations = -1;  ///< block of its rotations, if that is another one
+  int ring;            ///< index in SectorDofs::rings; -1 on the axis
+  double angle;        ///< rad, in [0, 2 pi) before the turns
   Eigen::Vector3d drilling_axis;
 };
 

@@ -255,7 +255,8 @@ mbs_export::ReducedSystem described_whole(const scene::Scene& scene, const Secto
     const int place = add_attachment(whole, model, node, 0);
     whole.sets.push_back(
         {.name = model.interface.axis_names[std::size_t(n_axis++)], .nodes = {place}});
-    for (const int c : scene.components) whole.masters.push_back({.node = place, .component = c});
+    for (const int c : model.system.dofs.components_of(node.node))
+      whole.masters.push_back({.node = place, .component = c});
   }
   std::vector<WholeRing> rings;
   for (int r = 0; r < std::ssize(model.dofs.rings); ++r) {

@@ -97,10 +97,6 @@ void write_picture(const PictureFiles& files, const Subject& subject, const mesh
 void tell_of_sectors(const Subject& subject, const mesh::Mesh& mesh)
 {
   if (subject.mesh.sector_search == mesh::SectorSearch::asked || mesh.sectors.count > 1) return;
-  const auto is_of_solids = [](const mesh::ElementBlock& block) {
-    return mesh::is_solid(block.shape);
-  };
-  if (std::ranges::any_of(mesh.blocks, is_of_solids)) return;  // which sectors do not take
   const int count = mesh::n_repetitions(mesh);
   if (count < 3) return;
   fmt::print(

@@ -148,6 +148,11 @@ Mesh extruded(const Mesh& flat, const Extrusion& extrusion, std::span<const Ring
   std::vector<int> all(std::size_t(flat.n_nodes()));
   for (int i = 0; i < flat.n_nodes(); ++i) all[std::size_t(i)] = i;
   const int top = planes.n_planes() - 1;
+  mesh.sectors.count = flat.sectors.count;
+  for (const auto& [low, high] : flat.sectors.pairs)
+    for (int plane = 0; plane <= top; ++plane)
+      if (planes.at(low, plane) >= 0)
+        mesh.sectors.pairs.push_back({planes.at(low, plane), planes.at(high, plane)});
   for (const Group& group : flat.groups) {
     Group above = nodes_above(group.nodes, {0, top}, planes);
     above.name = group.name;

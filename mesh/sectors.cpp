@@ -177,6 +177,80 @@ void refuse_edges_that_do_not_match(const Mesh& mesh, const std::vector<Segment>
       mesh.sectors.count, described_place(mesh, worst), 360.0 / mesh.sectors.count, largest));
 }
 
+/// A free face of a solid.
+struct FaceOnSkin {
+  std::vector<int> corners;
+  Point middle, normal;  ///< outwards, of length 1
+  double side;           ///< the longest, m
+};
+
+std::vector<FaceOnSkin> skin_of_solids(const Mesh& mesh)
+{
+  std::vector<FaceOnSkin> skin;
+  for (const FreeFace& face : free_faces(mesh)) {
+    const int order = mesh.blocks[std::size_t(face.block)].order;
+    const std::size_t n = std::ssize(face.nodes) == 3 * order ? 3 : 4;
+    FaceOnSkin on{.corners = {face.nodes.begin(), face.nodes.begin() + std::ptrdiff_t(n)},
+                  .middle = {},
+                  .normal = {},
+                  .side = 0.0};
+    const auto x = [&](std::size_t k) { return mesh.positions[std::size_t(on.corners[k % n])]; };
+    for (std::size_t k = 0; k < n; ++k) {
+      for (std::size_t c = 0; c < 3; ++c) on.middle[c] += x(k)[c] / double(n);
+      on.side = std::max(on.side, distance_of_points(x(k), x(k + 1)));
+    }
+    on.normal = unit(cross(minus(x(1), x(0)), minus(x(n - 1), x(0))));
+    skin.push_back(std::move(on));
+  }
+  return skin;
+}
+
+std::vector<Segment> sides_of(const std::vector<FaceOnSkin>& skin)
+{
+  std::vector<Segment> sides;
+  for (const auto& [corners, middle, normal, side] : skin)
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      sides.push_back({corners[k], corners[(k + 1) % corners.size()]});
+  return sides;
+}
+
+/// Faces that a turn lays onto faces of the other side, but whose nodes meet none.
+/// @param is_known  nodes with a partner, on either side
+void refuse_faces_that_do_not_match(const Mesh& mesh, const std::vector<FaceOnSkin>& skin,
+                                    const std::vector<bool>& is_known)
+{
+  constexpr double of_side = 0.05, opposite = -0.9;
+  const double radius = outer_radius(mesh);
+  double longest = 0.0;
+  std::vector<Point> middles;
+  for (const FaceOnSkin& face : skin) {
+    middles.push_back(face.middle);
+    longest = std::max(longest, face.side);
+  }
+  const NodeGrid grid(middles, std::max(longest, 1e-300));
+  for (const FaceOnSkin& face : skin) {
+    const auto alone = std::ranges::find_if(face.corners, [&](int node) {
+      return !is_known[std::size_t(node)] && !is_on_axis(mesh.positions[std::size_t(node)], radius);
+    });
+    if (alone == face.corners.end()) continue;
+    for (const int to : {1, -1}) {
+      const Point x = turned(mesh.sectors, face.middle, to);
+      const int near = grid.near(x);
+      if (near < 0) continue;
+      const FaceOnSkin& other = skin[std::size_t(near)];
+      if (std::abs(dot(minus(x, other.middle), other.normal)) > of_side * other.side ||
+          dot(turned(mesh.sectors, face.normal, to), other.normal) > opposite)
+        continue;
+      throw Error(fmt::format(
+          "sectors = {}: the cut faces do not match: {} lies on one of them and, turned by {:.6g} "
+          "degrees, on no node of the other; make the second face of the sector a copy of the "
+          "first "
+          "(in Gmsh: Periodic Surface ... Rotate)",
+          mesh.sectors.count, described_place(mesh, *alone), 360.0 / mesh.sectors.count));
+    }
+  }
+}
+
 void refuse_wider_mesh(const Mesh& mesh, const std::vector<bool>& is_low)
 {
   for (const auto& [low, high] : mesh.sectors.pairs) {
@@ -225,8 +299,10 @@ void find_sector_edges(Mesh& mesh, int count)
   mesh.sectors = {.count = count, .pairs = {}};
   if (count == 1) return;
   const std::vector<Segment> segments = boundary(mesh);
+  const std::vector<FaceOnSkin> skin = skin_of_solids(mesh);
   const double radius = outer_radius(mesh);
-  const NodeGrid grid(mesh.positions, std::min(of_side * shortest(mesh, segments), radius));
+  const double side = std::min(shortest(mesh, segments), shortest(mesh, sides_of(skin)));
+  const NodeGrid grid(mesh.positions, std::min(of_side * side, radius));
   std::vector<bool> is_low(std::size_t(mesh.n_nodes()), false);
   for (int node = 0; node < mesh.n_nodes(); ++node) {
     if (is_on_axis(mesh.positions[node], radius)) continue;
@@ -239,6 +315,7 @@ void find_sector_edges(Mesh& mesh, int count)
   std::vector<bool> is_known = is_low;
   for (const auto& [low, high] : mesh.sectors.pairs) is_known[high] = true;
   refuse_edges_that_do_not_match(mesh, segments, is_known);
+  refuse_faces_that_do_not_match(mesh, skin, is_known);
   if (mesh.sectors.pairs.empty()) {
     throw Error(fmt::format(
         "sectors = {}: no node of the mesh meets another one after a turn by {:.6g} degrees about "

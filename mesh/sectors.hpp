@@ -6,8 +6,9 @@
 namespace chladni::mesh {
 
 /// Makes a mesh the first of `count` equal sectors about the z axis. Finds the nodes of its cut
-/// edges, which a turn by 360 degrees / count takes onto each other, and moves those of the second
-/// edge exactly there. The edges may be curved. Nodes on the axis have no partner.
+/// edges, of solids of its cut faces, which a turn by 360 degrees / count takes onto each other,
+/// and moves those of the second edge exactly there. The edges may be curved. Nodes on the axis
+/// have no partner.
 /// @param count  1: the mesh is the whole body and stays as it is
 /// @throws chladni::Error when no node has a partner, when nodes of the cut edges do not match
 ///         (with the largest distance), and when the mesh is wider than one sector.

@@ -440,8 +440,6 @@ std::optional<mesh::Extrusion> read_extrusion(const Table& mesh, const mesh::Mes
   if (!mesh.has("extrude")) return std::nullopt;
   if (!options.annulus && !options.pad && !options.rectangle)
     mesh.refuse("extrude", "is for the plane generators annulus, pad and rectangle");
-  if (options.annulus && (options.annulus->sectors > 1 || finds_sectors(mesh)))
-    mesh.refuse("sectors", "is for shells and beams; mesh the whole body of solids");
   const Table table = mesh.table("extrude");
   mesh::Extrusion extrusion{.from = table.number("from"), .to = 0.0};
   extrusion.to = table.number("to", {.above = extrusion.from, .unit = "m, `from`"});

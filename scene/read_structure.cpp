@@ -181,11 +181,8 @@ plate::Material read_material_of(const Table& table, const Table& root)
 
 std::vector<int> read_model_components(const Table& root, const Sections& sections)
 {
-  if (!sections.solids.empty()) {
-    if (root.has("model"))
-      root.refuse("model", "solids have the displacements x, y, z at each node and no other DOF");
-    return {0, 1, 2};
-  }
+  if (!sections.solids.empty() && root.has("model"))
+    root.refuse("model", "solids have the displacements x, y, z at each node and no other DOF");
   if (!root.has("model")) return {0, 1, 2, 3, 4, 5};
   std::vector<int> components = read_component_list(root.table("model"), "dofs");
   std::ranges::sort(components);
@@ -223,12 +220,6 @@ Sections read_sections(const Table& root, const Scene& scene)
                                .loss_factor = read_loss_factor(table)});
   }
   if (taken.empty()) root.refuse("section", "must hold at least one section");
-  if (!sections.solids.empty() && taken.size() > sections.solids.size()) {
-    root.refuse(
-        "section",
-        "solids stand beside neither shells nor beams in one body; model the parts as bodies "
-        "of an assembly");
-  }
   return sections;
 }
 

@@ -32,8 +32,8 @@ struct Sections {
   std::vector<plate::SolidSection> solids;
 };
 
-/// Reads dofs of [model], the DOF components of each node; without the table all six, and x, y, z
-/// of solids, which have no others.
+/// Reads dofs of [model], the DOF components of each node; without the table all six, of which
+/// solids have x, y, z alone.
 std::vector<int> read_model_components(const Table& root, const Sections& sections);
 
 /// Reads [[section]] with the [material.NAME] that each names; needs the mesh of `scene`.

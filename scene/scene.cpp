@@ -94,47 +94,17 @@ std::vector<std::string> notes_of(const Table& root, const Scene& scene)
   return notes;
 }
 
-/// Nodes of solids have no rotations, which what is attached to them may need.
-void refuse_rotations(const Table& root, const Scene& scene)
-{
-  if (!scene.couplings.empty()) {
-    root.refuse(
-        "coupling",
-        "needs rotations, which the nodes of solids do not have; hold or attach the group itself");
-  }
-  for (const plate::PointMass& mass : scene.masses)
-    if (mass.inertia != std::array<double, 6>{} || mass.offset != std::array<double, 3>{})
-      root.refuse("mass", "at nodes of solids, which do not turn, has neither inertia nor offset");
-  for (const plate::Spring& spring : scene.springs) {
-    const auto turns = [](const std::array<double, 6>& of) {
-      return of[3] != 0.0 || of[4] != 0.0 || of[5] != 0.0;
-    };
-    if (spring.to || turns(spring.stiffness) || turns(spring.damping)) {
-      root.refuse("spring",
-                  "at nodes of solids, which do not turn, acts along x, y, z against the ground");
-    }
-  }
-  for (const plate::Load& load : scene.loads) {
-    const auto* nodal = std::get_if<plate::NodalLoad>(&load);
-    if (nodal != nullptr && nodal->moment != std::array<double, 3>{})
-      root.refuse("load", "nodes of solids take no moment; give forces");
-  }
-}
-
 /// What is computed of shells and beams alone.
 void refuse_beside_solids(const Table& root, const Scene& scene)
 {
   if (scene.solids.empty()) return;
   if (scene.accuracy) root.refuse("accuracy", "is for shells and beams; give solids a mesh");
-  if (scene.mesh.sectors > 1)
-    root.table("mesh").refuse("sectors", "is for shells and beams; mesh the whole body of solids");
   if (scene.mesh_errors) {
     root.table("reduce").refuse("mesh_errors",
                                 "is for shells and beams; compare solids with a finer mesh");
   }
   if (!scene.stiffening.empty())
     root.table("reduce").refuse("stiffening", "is for shells and beams; take it out");
-  refuse_rotations(root, scene);
 }
 
 /// The scene of the tables; `scene` holds text, path and, where they are known, the groups of the
@@ -159,7 +129,6 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
   for (const plate::BeamSection& beam : scene.beams) scene.mesh.line_groups.push_back(beam.group);
   for (const auto& shell : scene.sections) scene.mesh.shell_groups.push_back(shell.group);
   for (const auto& solid : scene.solids) scene.mesh.solid_groups.push_back(solid.group);
-  if (!scene.solids.empty()) scene.mesh.sector_search = mesh::SectorSearch::none;
   scene.couplings = read_couplings(root, scene);
   for (const plate::Coupling& coupling : scene.couplings) {
     if (coupling.kind == plate::CouplingKind::averaging) continue;

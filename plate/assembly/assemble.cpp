@@ -130,7 +130,7 @@ petsc::Matrix rigid_motions(const System& system)
     const int number = dofs.number(node);
     if (number < dofs.first_number(rank) || number >= dofs.first_number(rank + 1)) continue;
     const Matrix6d motion = rigid_arm(dofs.position(node) - origin);
-    for (const int c : dofs.components()) {
+    for (const int c : dofs.components_of(node)) {
       const int row = *dofs.dof(node, c);
       for (int k = 0; k < 6; ++k) petsc::check(MatSetValue(R, row, k, motion(c, k), INSERT_VALUES));
     }
@@ -202,6 +202,15 @@ void add_load(const mesh::Mesh& mesh, const NodalLoad& load, Forces& forces)
 {
   const std::vector<int> nodes = forces.dofs().named_nodes(mesh, load.group);
   if (nodes.empty()) throw Error(fmt::format("load on \"{}\": it has no nodes", load.group));
+  const auto cannot_turn = [&](int node) { return !forces.dofs().has_rotations(node); };
+  const auto without = std::ranges::find_if(nodes, cannot_turn);
+  if (without != nodes.end() && load.moment != std::array<double, 3>{}) {
+    throw Error(fmt::format(
+        "load on \"{}\": node {} of a solid has no rotations, so that no moment can act there; "
+        "give "
+        "forces, or couple the group rigidly ([[coupling]]) and take the coupling's name",
+        load.group, mesh.node_numbers[*without]));
+  }
   Vector6d force;
   force << vector_of(load.force), vector_of(load.moment);
   for (const int node : nodes) forces.add(node, force / static_cast<double>(nodes.size()));

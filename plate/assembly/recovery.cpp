@@ -118,10 +118,13 @@ MatrixXd node_motions(const DofMap& dofs, Vec q)
 MatrixXd reactions(const DofMap& dofs, const std::vector<int>& held, Vec residual)
 {
   const Eigen::VectorXd all = replicate(residual);
-  MatrixXd forces = MatrixXd::Zero(dofs.n_active(), 6);
-  const int n = dofs.n_components();
-  for (const int dof : held)
-    forces(dof / n, dofs.components()[static_cast<std::size_t>(dof % n)]) = all[dof];
+  MatrixXd forces = MatrixXd::Zero(dofs.n_nodes(), 6);
+  for (int node = 0; node < dofs.n_nodes(); ++node) {
+    for (int c = 0; c < 6; ++c) {
+      const auto dof = dofs.dof(node, c);
+      if (dof && std::ranges::binary_search(held, *dof)) forces(node, c) = all[*dof];
+    }
+  }
   return forces;
 }
 

@@ -16,10 +16,10 @@ namespace chladni::plate {
 /// @note   Collective on the communicator of `q`.
 Eigen::MatrixXd node_motions(const DofMap& dofs, Vec q);
 
-/// The forces and moments of the supports on the body, one row for each active number.
+/// The forces and moments of the supports on the body.
 /// @param held      the DOFs that supports hold; other rows of the residual are round-off
 /// @param residual  K u - f, distributed as the rows of K
-/// @return [n_active x 6] N, N m, on every rank
+/// @return [n_nodes x 6] N, N m at DofMap's nodes, on every rank
 /// @note   Collective on the communicator of `residual`.
 Eigen::MatrixXd reactions(const DofMap& dofs, const std::vector<int>& held, Vec residual);
 

@@ -293,15 +293,41 @@ NumberedNodes number_nodes(CoupledNodes coupled, std::span<const Coupling> coupl
                            std::span<const int> owners, int n_ranks)
 {
   const std::vector<int> ranks = numbering_ranks(coupled, couplings, owners, n_ranks);
-  NumberedNodes nodes{std::move(coupled), std::vector<int>(ranks.size(), -1), {}};
+  const std::vector<int> none(ranks.size(), -1);
+  NumberedNodes nodes{std::move(coupled), none, none, {}};
   int next = 0;
   for (int rank = 0; rank < n_ranks; ++rank) {
     nodes.first_numbers.push_back(next);
-    for (std::size_t node = 0; node < ranks.size(); ++node)
-      if (ranks[node] == rank) nodes.numbers[node] = next++;
+    for (std::size_t node = 0; node < ranks.size(); ++node) {
+      if (ranks[node] != rank) continue;
+      nodes.numbers[node] = next++;
+      if (!nodes.rotating.empty() && nodes.rotating[node] != 0)
+        nodes.rotation_numbers[node] = next++;
+    }
   }
   nodes.first_numbers.push_back(next);
   return nodes;
+}
+
+int NumberedNodes::n_independent() const
+{
+  return static_cast<int>(std::ranges::count_if(numbers, [](int number) { return number >= 0; }));
+}
+
+int NumberedNodes::coordinate(int node, int component) const
+{
+  if (component < 3 || rotating.empty()) return 6 * number(node) + component;
+  return rotation_numbers[node] < 0 ? -1 : 6 * rotation_numbers[node] + component - 3;
+}
+
+std::vector<MotionTerm> NumberedNodes::own_motion(int node) const
+{
+  if (rotation_numbers[node] < 0) return {{.number = number(node), .T = Matrix6d::Identity()}};
+  MotionTerm u{.number = number(node), .T = Matrix6d::Zero()};
+  MotionTerm theta{.number = rotation_numbers[node], .T = Matrix6d::Zero()};
+  u.T.topLeftCorner<3, 3>().setIdentity();
+  theta.T.bottomLeftCorner<3, 3>().setIdentity();
+  return {u, theta};
 }
 
 namespace {
@@ -311,10 +337,23 @@ constexpr double no_rotation = 1e-9;  // of the largest pivot
 /// The blocks of a row of six equations, by active number.
 using Blocks = std::map<int, Matrix6d>;
 
+/// The weights of the nodes of a group in its mean.
+struct Weights {
+  std::map<int, double> shares;
+  /// int N_i x dA of faces of solids, m^3, which replace the shares times the positions of the
+  /// nodes: a moment then acts as a linear traction, not more at the nodes with large shares. Else
+  /// empty.
+  std::map<int, Vector3d> moments;
+};
+
+/// Those of a group of the mesh.
+Weights mean_weights(const mesh::Mesh& mesh, const std::string& group);
+
 /// The motion of the reference node as the mean of its group: A q.
-/// @param shares  of the nodes of the group, their weights
-Blocks mean_motion(const NodeMotions& motions, const std::map<int, double>& shares, int reference)
+Blocks mean_motion(const NodeMotions& motions, const Weights& weights, int reference)
 {
+  const std::map<int, double>& shares = weights.shares;
+  const std::map<int, Vector3d>& moments = weights.moments;
   double sum = 0.0;
   Vector3d centre = Vector3d::Zero();
   for (const auto& [node, share] : shares) {
@@ -322,11 +361,13 @@ Blocks mean_motion(const NodeMotions& motions, const std::map<int, double>& shar
     centre += share * motions.position(node);
   }
   centre /= sum;
+  const auto weighted_arm = [&](int node, double w) -> Matrix3d {
+    if (moments.empty()) return w * cross_matrix(motions.position(node) - centre);
+    return cross_matrix(moments.at(node) / sum - w * centre);
+  };
   Matrix3d J = Matrix3d::Zero();
-  for (const auto& [node, share] : shares) {
-    const Matrix3d r = cross_matrix(motions.position(node) - centre);
-    J -= share / sum * r * r;
-  }
+  for (const auto& [node, share] : shares)
+    J -= weighted_arm(node, share / sum) * cross_matrix(motions.position(node) - centre);
   const Matrix3d J_inverse = J.completeOrthogonalDecomposition().pseudoInverse();
   const Matrix6d to_reference = rigid_arm(motions.position(reference) - centre);
   Blocks A;
@@ -335,30 +376,35 @@ Blocks mean_motion(const NodeMotions& motions, const std::map<int, double>& shar
     Matrix6d of_node = Matrix6d::Zero();
     of_node.topLeftCorner<3, 3>() = w * Matrix3d::Identity();
     of_node.bottomLeftCorner<3, 3>() =
-        w * J_inverse * cross_matrix(motions.position(node) - centre);
+        moments.empty() ? Matrix3d(w * J_inverse * cross_matrix(motions.position(node) - centre))
+                        : Matrix3d(J_inverse * weighted_arm(node, w));
     for (const MotionTerm& term : motions.motion(node))
       A.try_emplace(term.number, Matrix6d::Zero()).first->second += to_reference * of_node * term.T;
   }
   return A;
 }
 
-/// The six columns of A that are solved for: DOFs, ascending by pivoting, and their block inverted.
+/// The six columns of A that are solved for: coordinates 6 * number + place, ascending by pivoting,
+/// and their block inverted.
 struct Pivots {
   std::array<int, 6> dof;
   Matrix6d inverse;
 };
 
 /// Rows of rotation are scaled by the size of the group, so that all are lengths.
-Pivots choose_pivots(const Blocks& A, double length, const Coupling& coupling)
+/// @param node_of  [n_active] the node whose displacements a number has; -1 for one of rotations
+Pivots choose_pivots(const Blocks& A, const std::vector<int>& node_of, double length,
+                     const Coupling& coupling)
 {
   MatrixXd columns = MatrixXd::Zero(6, 3 * static_cast<Index>(A.size()));
   std::vector<int> dof;
   for (const auto& [number, block] : A) {
-    for (int c = 0; c < 3; ++c) {  // displacements only
+    for (int c = 0; c < 3 && node_of[number] >= 0; ++c) {  // displacements only
       columns.col(std::ssize(dof)) = block.col(c);
       dof.push_back(6 * number + c);
     }
   }
+  columns.conservativeResize(Eigen::NoChange, std::ssize(dof));
   columns.bottomRows<3>() *= length;
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
   const Eigen::VectorXd pivots = qr.matrixR().diagonal().cwiseAbs();
@@ -388,22 +434,24 @@ CombinedMotion reference_motion(const Pivots& pivots)
     const auto [number, component] = std::pair(pivots.dof[k] / 6, pivots.dof[k] % 6);
     T.try_emplace(number, Matrix6d::Zero()).first->second(k, component) = 1.0;
   }
-  CombinedMotion motion{.followed = {}, .terms = {}, .dof = pivots.dof};
+  CombinedMotion motion{.followed = {}, .terms = {}, .coordinates = pivots.dof};
   for (const auto& [number, block] : T) motion.terms.push_back({number, block});
   return motion;
 }
 
 /// The motion of a node that holds pivots: those displacements are P^-1 (u_ref - A_rest q_rest).
-CombinedMotion pivot_node_motion(int number, const Blocks& A, const Pivots& pivots)
+CombinedMotion pivot_node_motion(const NumberedNodes& nodes, int node, const Blocks& A,
+                                 const Pivots& pivots)
 {
-  CombinedMotion motion{.followed = {}, .terms = {}, .dof = {}};
-  for (int c = 0; c < 6; ++c) motion.dof[c] = 6 * number + c;
+  const int number = nodes.number(node);
+  CombinedMotion motion{.followed = {}, .terms = {}, .coordinates = {}};
+  for (int c = 0; c < 6; ++c) motion.coordinates[c] = nodes.coordinate(node, c);
   Blocks T;
-  T[number] = Matrix6d::Identity();
+  for (const MotionTerm& own : nodes.own_motion(node)) T[own.number] = own.T;
   for (int k = 0; k < 6; ++k) {
     if (pivots.dof[k] / 6 != number) continue;
     const int component = pivots.dof[k] % 6;
-    motion.dof[component] = -1;
+    motion.coordinates[component] = -1;
     for (const auto& [other, block] : A) {
       Eigen::Matrix<double, 1, 6> row = -pivots.inverse.row(k) * block;
       for (int l = 0; l < 6; ++l)  // where pivots stood there is now the reference node
@@ -471,7 +519,7 @@ std::vector<MotionTerm> NodeMotions::motion(int node) const
   if (it != combined.end())
     terms = it->second.terms;
   else
-    terms.push_back({.number = number(end), .T = Matrix6d::Identity()});
+    terms = own_motion(end);
   if (end == node) return terms;
   const Matrix6d T = rigid_arm(arm(node));
   for (MotionTerm& term : terms) term.T = T * term.T;
@@ -497,14 +545,15 @@ NodeMotions average_motions(const mesh::Mesh& mesh, std::span<const Coupling> co
     const std::vector<int>& group = mesh::find_group(mesh, couplings[i].group).nodes;
     const int reference = motions.reference_node(couplings[i].name).value();
     refuse_followers(motions, mesh, couplings[i]);
-    const Blocks A = mean_motion(motions, group_shares(mesh, couplings[i].group), reference);
+    const Blocks A = mean_motion(motions, mean_weights(mesh, couplings[i].group), reference);
     claim(A, claimed, i, couplings);
-    const Pivots pivots = choose_pivots(A, size_of(motions, group, reference), couplings[i]);
+    const Pivots pivots =
+        choose_pivots(A, node_of, size_of(motions, group, reference), couplings[i]);
     motions.combined.emplace(reference, reference_motion(pivots));
     for (const int dof : pivots.dof) {
       const int node = node_of[dof / 6];
       if (motions.combined.contains(node)) continue;
-      CombinedMotion motion = pivot_node_motion(dof / 6, A, pivots);
+      CombinedMotion motion = pivot_node_motion(motions, node, A, pivots);
       motion.followed = couplings[i].name;
       motions.combined.emplace(node, std::move(motion));
     }
@@ -530,33 +579,49 @@ Eigen::VectorXd shares_of_edge(const mesh::Mesh& mesh, const std::vector<int>& e
   return basis.N.leftCols(p + 1).transpose() * lengths;
 }
 
-/// int N_i dA of one surface.
-Eigen::VectorXd shares_of_surface(const NodeVectors& x, const Points& points, const Basis& basis)
+/// dA of the points of one surface.
+Eigen::VectorXd areas_of_points(const NodeVectors& x, const Points& points, const Basis& basis)
 {
   const NodeVectors a_1 = basis.N_xi * x;
   const NodeVectors a_2 = basis.N_eta * x;
   Eigen::VectorXd areas(points.size());
   for (Eigen::Index q = 0; q < points.size(); ++q)
     areas[q] = points.weight[q] * a_1.row(q).cross(a_2.row(q)).norm();
-  return basis.N.transpose() * areas;
+  return areas;
 }
 
 Eigen::VectorXd shares_of_element(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                   int element)
 {
   const Points points = gauss_points(block.shape, block.order + 2);
-  return shares_of_surface(element_positions(mesh, block, element), points,
-                           lagrange_basis(block.shape, block.order, points));
+  const Basis basis = lagrange_basis(block.shape, block.order, points);
+  return basis.N.transpose() *
+         areas_of_points(element_positions(mesh, block, element), points, basis);
 }
 
-Eigen::VectorXd shares_of_face(const mesh::Mesh& mesh, const mesh::FreeFace& face)
+/// int N_i dA, and int N_i x dA, of one face.
+/// @return [n x 4]
+Eigen::MatrixX4d integrals_of_face(const mesh::Mesh& mesh, const mesh::FreeFace& face)
 {
   NodeVectors x(std::ssize(face.nodes), 3);
   for (Index i = 0; i < x.rows(); ++i)
     x.row(i) = Eigen::RowVector3d(mesh.positions[face.nodes[std::size_t(i)]].data());
   const FaceRule& rule =
       face_rule(static_cast<int>(face.nodes.size()), mesh.blocks[face.block].order);
-  return shares_of_surface(x, rule.points, rule.basis);
+  Eigen::MatrixX4d at_points(rule.points.size(), 4);
+  at_points << Eigen::VectorXd::Ones(rule.points.size()), rule.basis.N * x;
+  return rule.basis.N.transpose() *
+         (areas_of_points(x, rule.points, rule.basis).asDiagonal() * at_points);
+}
+
+/// Calls visit(face) for the free faces of solids that have all their nodes in a group.
+template <typename Visit>
+void for_faces_in(const mesh::Mesh& mesh, const mesh::Group& group, const Visit& visit)
+{
+  const std::set<int> members(group.nodes.begin(), group.nodes.end());
+  for (const mesh::FreeFace& face : mesh::free_faces(mesh))
+    if (std::ranges::all_of(face.nodes, [&](int node) { return members.contains(node); }))
+      visit(face);
 }
 
 std::map<int, double> surface_shares(const mesh::Mesh& mesh, const mesh::Group& group)
@@ -572,14 +637,11 @@ std::map<int, double> surface_shares(const mesh::Mesh& mesh, const mesh::Group& 
         shares[block.element_nodes(e)[i]] += of_element[i];
     }
   }
-  const std::set<int> members(group.nodes.begin(), group.nodes.end());
-  for (const mesh::FreeFace& face : mesh::free_faces(mesh)) {
-    if (!std::ranges::all_of(face.nodes, [&](int node) { return members.contains(node); }))
-      continue;
-    const Eigen::VectorXd of_face = shares_of_face(mesh, face);
+  for_faces_in(mesh, group, [&](const mesh::FreeFace& face) {
+    const Eigen::MatrixX4d of_face = integrals_of_face(mesh, face);
     for (std::size_t i = 0; i < face.nodes.size(); ++i)
-      shares[face.nodes[i]] += of_face[static_cast<Index>(i)];
-  }
+      shares[face.nodes[i]] += of_face(static_cast<Index>(i), 0);
+  });
   return shares;
 }
 
@@ -607,5 +669,26 @@ std::map<int, double> group_shares(const mesh::Mesh& mesh, const std::string& na
   for (const int node : group.nodes) shares[node] = 1.0;
   return shares;
 }
+
+namespace {
+
+Weights mean_weights(const mesh::Mesh& mesh, const std::string& name)
+{
+  Weights weights{.shares = group_shares(mesh, name), .moments = {}};
+  const mesh::Group& group = mesh::find_group(mesh, name);
+  if (group.dimension != 2) return weights;
+  for_faces_in(mesh, group, [&](const mesh::FreeFace& face) {
+    const Eigen::MatrixX4d of_face = integrals_of_face(mesh, face);
+    for (std::size_t i = 0; i < face.nodes.size(); ++i) {
+      weights.moments.try_emplace(face.nodes[i], Vector3d::Zero()).first->second +=
+          of_face.row(static_cast<Index>(i)).tail<3>().transpose();
+    }
+  });
+  const auto has_moment = [&](const auto& share) { return weights.moments.contains(share.first); };
+  if (!std::ranges::all_of(weights.shares, has_moment)) weights.moments.clear();
+  return weights;
+}
+
+}  // namespace
 
 }  // namespace chladni::plate

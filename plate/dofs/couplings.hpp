@@ -24,6 +24,9 @@ struct CoupledNodes {
   /// [n] What a dependent node depends on; else empty.
   std::vector<std::string> names_followed;
   std::vector<std::string> reference_names;
+  /// [n] In a model with solids, whether the node has rotations beside its displacements; else
+  /// empty, and all nodes have them.
+  std::vector<char> rotating = {};
 
   int n_nodes() const { return static_cast<int>(positions.size()); }
   int n_mesh_nodes() const { return n_nodes() - static_cast<int>(reference_names.size()); }
@@ -32,6 +35,11 @@ struct CoupledNodes {
   Eigen::Vector3d arm(int node) const { return position(node) - position(reference(node)); }
   bool is_dependent(int node) const { return references[node] >= 0; }
   int reference(int node) const { return references[node]; }
+  /// Whether the motion of a node, or of what it follows, includes rotations.
+  bool has_rotations(int node) const
+  {
+    return rotating.empty() || rotating[is_dependent(node) ? reference(node) : node] != 0;
+  }
   std::optional<int> reference_node(const std::string& name) const;
   const std::string& reference_name(int node) const
   {
@@ -50,12 +58,31 @@ CoupledNodes follow_references(const mesh::Mesh& mesh, std::span<const Coupling>
 /// The name of a coupling for messages: `coupling "hub"` or `link of "wall_foot" to "wall_seat"`.
 std::string describe(const Coupling& coupling);
 
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// A term T q of the motion (u, theta) of a node, with q the six coordinates of an active number,
+/// or in a model with solids the first three.
+struct MotionTerm {
+  int number;
+  Matrix6d T;
+};
+
 /// Nodes with numbers for the active ones, those that have DOFs. Each rank owns a contiguous range.
+/// In a model with solids a number stands for three DOFs, and a node with rotations has a second
+/// one for these.
 struct NumberedNodes : CoupledNodes {
-  std::vector<int> numbers;        ///< [n] -1 where the node has no DOFs of its own
-  std::vector<int> first_numbers;  ///< [n_ranks + 1] first number of each rank
+  std::vector<int> numbers;           ///< [n] -1 where the node has no DOFs of its own
+  std::vector<int> rotation_numbers;  ///< [n] -1 where there is no second number
+  std::vector<int> first_numbers;     ///< [n_ranks + 1] first number of each rank
 
   int number(int node) const { return numbers[node]; }
+  /// The number of nodes with DOFs of their own.
+  int n_independent() const;
+  /// The coordinate of an active number that a component (0 to 5) of the motion of such a node is,
+  /// as 6 * number + place; -1 if the node does not have the component.
+  int coordinate(int node, int component) const;
+  /// The motion of such a node by its own numbers.
+  std::vector<MotionTerm> own_motion(int node) const;
   int first_number(int rank) const { return first_numbers[rank]; }
   int n_active() const { return first_numbers.back(); }
 };
@@ -65,8 +92,6 @@ struct NumberedNodes : CoupledNodes {
 NumberedNodes number_nodes(CoupledNodes coupled, std::span<const Coupling> couplings,
                            std::span<const int> owners, int n_ranks);
 
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
 /// The matrix with a x b = cross_matrix(a) b.
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a);
 
@@ -75,20 +100,15 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a);
 /// @param arm  m
 Matrix6d rigid_arm(const Eigen::Vector3d& arm);
 
-/// A term T q of the motion (u, theta) of a node, with q the six coordinates of an active number.
-struct MotionTerm {
-  int number;
-  Matrix6d T;
-};
-
 /// The motion of a node as a combination of DOFs of other nodes: by an averaging coupling, or as
 /// the sum of the harmonics of a ring.
 struct CombinedMotion {
   /// Name of the coupling or ring; empty for the reference node of the coupling.
   std::string followed;
   std::vector<MotionTerm> terms;
-  /// The DOF that equals each component of the motion; -1 if there is none.
-  std::array<int, 6> dof;
+  /// The coordinate that equals each component of the motion, as 6 * number + place; -1 if there is
+  /// none.
+  std::array<int, 6> coordinates;
 };
 
 /// Nodes with averaging couplings. Such a coupling replaces six displacements of nodes of its group
@@ -97,8 +117,10 @@ struct NodeMotions : NumberedNodes {
   std::map<int, CombinedMotion> combined;  ///< by node
 
   bool has_combined_motions() const { return !combined.empty(); }
-  /// True if the motion of a node is that of its own six DOFs.
-  bool is_plain(int node) const { return !is_dependent(node) && !combined.contains(node); }
+  /// True if the motion of a node is that of its own DOFs.
+  bool is_independent(int node) const { return !is_dependent(node) && !combined.contains(node); }
+  /// True if these DOFs are those of one active number.
+  bool is_plain(int node) const { return is_independent(node) && rotation_numbers[node] < 0; }
   /// The terms whose sum is the motion of a node.
   std::vector<MotionTerm> motion(int node) const;
   /// The name of the coupling or ring that the motion of a node depends on; empty for none.

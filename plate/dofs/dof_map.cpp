@@ -31,6 +31,120 @@ void check_components(const Kinematics& kinematics)
       "an averaging coupling needs all six DOFs of each node; use a rigid one, or all six DOFs");
 }
 
+/// Which nodes belong to elements of solids, and which to shells or beams.
+struct NodesOfElements {
+  std::vector<char> solid, other;
+
+  explicit NodesOfElements(const mesh::Mesh& mesh)
+      : solid(std::size_t(mesh.n_nodes()), 0), other(std::size_t(mesh.n_nodes()), 0)
+  {
+    for (const mesh::ElementBlock& block : mesh.blocks)
+      for (const int node : block.nodes)
+        (mesh::is_solid(block.shape) ? solid : other)[std::size_t(node)] = 1;
+  }
+};
+
+constexpr const char* couple_rigidly =
+    "couple it to a group of nodes of the solid ([[coupling]], type \"rigid\")";
+
+/// A shell or beam would turn freely about a node that it shares with a solid.
+void refuse_hinges(const mesh::Mesh& mesh, const NodesOfElements& of)
+{
+  for (int node = 0; node < mesh.n_nodes(); ++node) {
+    if (of.solid[std::size_t(node)] == 0 || of.other[std::size_t(node)] == 0) continue;
+    throw Error(fmt::format(
+        "node {} belongs to a solid, which has no rotations there, and to a shell or beam, which "
+        "would hang at it as at a hinge; give the shell or beam a node of its own and {}",
+        mesh.node_numbers[node], couple_rigidly));
+  }
+}
+
+/// The same of a link to a node without rotations, which does not turn what is linked to it either.
+void refuse_hinges(const mesh::Mesh& mesh, const CoupledNodes& nodes, const NodesOfElements& of,
+                   const Coupling& link)
+{
+  constexpr double at_one_place = 1e-8;  // of the size of the model: its coordinates have 12 digits
+  double size = 0.0;
+  for (int node = 0; node < mesh.n_nodes(); ++node)
+    size = std::max(size, (nodes.position(node) - nodes.position(0)).norm());
+  for (const int node : mesh::find_group(mesh, link.group).nodes) {
+    if (nodes.has_rotations(node)) continue;
+    const std::int64_t number = mesh.node_numbers[node],
+                       end = mesh.node_numbers[nodes.reference(node)];
+    if (of.other[std::size_t(node)] != 0) {
+      throw Error(fmt::format(
+          "{}: node {} of a shell or beam follows node {}, which has no rotations, and would hang "
+          "at it as at a hinge; {}",
+          describe(link), number, end, couple_rigidly));
+    }
+    if (nodes.arm(node).norm() <= at_one_place * size) continue;
+    throw Error(
+        fmt::format("{}: node {} is {:.3g} m away from node {}, which has no rotations and would "
+                    "not turn it; link nodes at one place, or {}",
+                    describe(link), number, nodes.arm(node).norm(), end, couple_rigidly));
+  }
+}
+
+/// Whether nodes resist a rotation about every axis by their displacements.
+bool span_a_plane(const CoupledNodes& nodes, const std::vector<int>& members)
+{
+  constexpr double flat = 1e-12;  // of squared lengths
+  Vector3d mean = Vector3d::Zero();
+  for (const int node : members) mean += nodes.position(node) / double(members.size());
+  Matrix3d second = Matrix3d::Zero();
+  for (const int node : members)
+    second += (nodes.position(node) - mean) * (nodes.position(node) - mean).transpose();
+  const Vector3d squares = Eigen::SelfAdjointEigenSolver<Matrix3d>(second).eigenvalues();
+  return squares[1] > flat * squares[2];
+}
+
+/// The node whose rotations move what a coupling couples.
+int end_of(const mesh::Mesh& mesh, const CoupledNodes& nodes, const Coupling& coupling)
+{
+  const int leader = coupling.has_reference_node() ? nodes.reference_node(coupling.name).value()
+                                                   : nodes.named_nodes(mesh, coupling.to).front();
+  return nodes.is_dependent(leader) ? nodes.reference(leader) : leader;
+}
+
+/// Solids whose nodes in a rigid coupling lie on one line let it turn about this line.
+void refuse_lines(const mesh::Mesh& mesh, std::span<const Coupling> couplings,
+                  const CoupledNodes& nodes, const NodesOfElements& of)
+{
+  std::map<int, std::vector<int>> members;  // nodes of solids by the end that they follow
+  for (int node = 0; node < mesh.n_nodes(); ++node)
+    if (of.solid[std::size_t(node)] != 0)
+      members[nodes.is_dependent(node) ? nodes.reference(node) : node].push_back(node);
+  for (const Coupling& coupling : couplings) {
+    if (coupling.kind != CouplingKind::rigid) continue;
+    const auto found = members.find(end_of(mesh, nodes, coupling));
+    if (found == members.end() || span_a_plane(nodes, found->second)) continue;
+    throw Error(fmt::format(
+        "{}: its nodes of solids lie on one line or are fewer than three, and nodes of solids have "
+        "no rotations, so that nothing resists a rotation about this line; couple more nodes",
+        describe(coupling)));
+  }
+}
+
+/// The nodes with rotations in a model with solids: those of shells and beams, reference nodes, and
+/// nodes that others follow as a rigid body.
+/// @return [n_nodes]; empty for a mesh without solids
+std::vector<char> rotating_nodes(const mesh::Mesh& mesh, std::span<const Coupling> couplings,
+                                 const CoupledNodes& nodes)
+{
+  const NodesOfElements of(mesh);
+  if (std::ranges::count(of.solid, 1) == 0) return {};
+  refuse_hinges(mesh, of);
+  CoupledNodes with = nodes;
+  with.rotating = of.other;
+  with.rotating.resize(std::size_t(nodes.n_nodes()), 1);
+  for (const Coupling& coupling : couplings)
+    if (coupling.kind == CouplingKind::rigid) with.rotating[end_of(mesh, nodes, coupling)] = 1;
+  refuse_lines(mesh, couplings, nodes, of);
+  for (const Coupling& coupling : couplings)
+    if (coupling.kind == CouplingKind::link) refuse_hinges(mesh, with, of, coupling);
+  return with.rotating;
+}
+
 }  // namespace
 
 const std::array<const char*, 6> component_names{"x", "y", "z", "rx", "ry", "rz"};
@@ -46,9 +160,29 @@ std::optional<int> DofMap::dof(int node, int component) const
 {
   if (is_dependent(node)) return std::nullopt;
   const auto it = combined.find(node);
-  if (it == combined.end()) return dof_of_number(number(node), component);
-  const int dof = it->second.dof[static_cast<std::size_t>(component)];
-  return dof < 0 ? std::nullopt : std::optional(dof);
+  return dof_at(it == combined.end() ? coordinate(node, component)
+                                     : it->second.coordinates[std::size_t(component)]);
+}
+
+std::optional<int> DofMap::harmonic_dof(const HarmonicRing& ring, int k, int component) const
+{
+  return dof_at(coordinate(ring.nodes[std::size_t(k)], component));
+}
+
+std::optional<int> DofMap::dof_at(int coordinate) const
+{
+  return coordinate < 0 ? std::nullopt : dof_of_number(coordinate / 6, coordinate % 6);
+}
+
+bool DofMap::holds(int component) const
+{
+  return rotating.empty() && !std::ranges::binary_search(components_, component);
+}
+
+std::vector<int> DofMap::components_of(int node) const
+{
+  if (rotating.empty() || !has_rotations(node)) return components_;
+  return {0, 1, 2, 3, 4, 5};
 }
 
 DofMap make_dof_map(const mesh::Mesh& mesh, const Kinematics& kinematics,
@@ -56,10 +190,13 @@ DofMap make_dof_map(const mesh::Mesh& mesh, const Kinematics& kinematics,
 {
   const std::span<const Coupling> couplings = kinematics.couplings;
   CoupledNodes coupled = follow_references(mesh, couplings);
+  coupled.rotating = rotating_nodes(mesh, couplings, coupled);
+  const bool has_solids = !coupled.rotating.empty();
   NumberedNodes numbered = number_nodes(std::move(coupled), couplings, owners, n_ranks);
   NodeMotions averaged = average_motions(mesh, couplings, std::move(numbered));
   check_components(kinematics);
-  return {with_ring_harmonics(mesh, std::move(averaged), kinematics.rings), kinematics.components};
+  return {with_ring_harmonics(mesh, std::move(averaged), kinematics.rings),
+          has_solids ? std::vector{0, 1, 2} : kinematics.components};
 }
 
 namespace {
@@ -190,7 +327,13 @@ void check_nodes(const NodeMotions& motions, const Circle& circle, const std::st
 {
   const std::set<int> averaged = averaged_numbers(motions);
   for (const int node : circle.nodes) {
-    const bool is_free = motions.is_plain(node) && !averaged.contains(motions.number(node));
+    if (motions.has_rotations(node) != motions.has_rotations(circle.nodes.front())) {
+      throw Error(fmt::format(
+          "ring \"{}\": some of its nodes belong to solids and have no rotations, others "
+          "have; make it of one kind",
+          ring));
+    }
+    const bool is_free = motions.is_independent(node) && !averaged.contains(motions.number(node));
     if (is_free) continue;
     const std::string& other = motions.followed(node);
     throw Error(fmt::format(
@@ -225,9 +368,11 @@ RingMotions with_ring_harmonics(const mesh::Mesh& mesh, NodeMotions motions,
     for (const int node : circle.nodes) ring.numbers.push_back(with.number(node));
     for (Index i = 0; i < F.rows(); ++i) {
       const Matrix6d E = directions(circle.axes, circle.angles[i]);
-      CombinedMotion motion{.followed = wanted.ring, .terms = {}, .dof = {-1, -1, -1, -1, -1, -1}};
+      CombinedMotion motion{.followed = wanted.ring, .terms = {}, .coordinates = {}};
+      motion.coordinates.fill(-1);
       for (Index k = 0; k < F.cols(); ++k)
-        motion.terms.push_back({ring.numbers[static_cast<std::size_t>(k)], F(i, k) * E});
+        for (const MotionTerm& own : with.own_motion(circle.nodes[std::size_t(k)]))
+          motion.terms.push_back({own.number, F(i, k) * (E * own.T)});
       with.combined.emplace(circle.nodes[static_cast<std::size_t>(i)], std::move(motion));
     }
     with.rings.push_back(std::move(ring));
@@ -245,6 +390,18 @@ namespace {
                           support.group, mesh.node_numbers[node], followed, followed));
 }
 
+/// Rotations beside displacements are of no consequence: a solid has none that could move.
+void refuse_rotations_of_solids(const mesh::Mesh& mesh, const DofMap& dofs, const Support& support,
+                                int node)
+{
+  const auto is_rotation = [](int component) { return component >= 3; };
+  if (dofs.has_rotations(node) || !std::ranges::all_of(support.components, is_rotation)) return;
+  throw Error(
+      fmt::format("support of \"{}\": node {} of a solid has no rotations to hold; hold x, y, z of "
+                  "its face, or couple that rigidly ([[coupling]]) and hold the coupling",
+                  support.group, mesh.node_numbers[node]));
+}
+
 }  // namespace
 
 std::vector<int> held_dofs(const mesh::Mesh& mesh, const DofMap& dofs,
@@ -256,9 +413,10 @@ std::vector<int> held_dofs(const mesh::Mesh& mesh, const DofMap& dofs,
     if (nodes.empty())
       throw Error(fmt::format("support of \"{}\": the group has no nodes", support.group));
     for (const int node : nodes) {
+      refuse_rotations_of_solids(mesh, dofs, support, node);
       for (const int component : support.components) {
         const auto dof = dofs.dof(node, component);
-        if (!dof && dofs.is_plain(node)) continue;  // the model holds this component
+        if (!dof && dofs.is_plain(node)) continue;  // the model holds it, or a solid has none
         if (!dof) refuse_dependent(mesh, dofs, support, node);
         held.push_back(*dof);
       }

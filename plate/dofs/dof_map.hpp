@@ -58,17 +58,24 @@ RingMotions with_ring_harmonics(const mesh::Mesh& mesh, NodeMotions motions,
 
 /// The DOFs of the FE system, the same on every rank and immutable. DOF `6 * number + component` is
 /// one of (u_x, u_y, u_z, theta_x, theta_y, theta_z) of an active number; with n_c < 6 components
-/// it is `n_c * number + place of the component`.
+/// it is `n_c * number + place of the component`. In a model with solids n_c = 3, and a number
+/// stands for the displacements of a node or for the rotations that it may have beside them.
 class DofMap : RingMotions {
  public:
-  /// @param components  ascending; the others are held at zero. Averages and rings need all six.
+  /// @param components  ascending; the others are held at zero, except beside solids, where they
+  /// are
+  ///                    0 to 2. Averages and rings need all six elsewhere.
   DofMap(RingMotions motions, std::vector<int> components)
       : RingMotions(std::move(motions)), components_(std::move(components))
   {}
 
   using RingMotions::arm, RingMotions::followed, RingMotions::has_combined_motions,
-      RingMotions::is_plain, RingMotions::motion;
-  using RingMotions::first_number, RingMotions::n_active, RingMotions::number;
+      RingMotions::is_independent, RingMotions::is_plain, RingMotions::motion;
+  using RingMotions::first_number, RingMotions::n_active, RingMotions::n_independent,
+      RingMotions::number;
+  /// The second number of a node, of its rotations; -1 without one.
+  int rotation_number(int node) const { return rotation_numbers[static_cast<std::size_t>(node)]; }
+  using RingMotions::has_rotations;
   using RingMotions::is_dependent, RingMotions::n_mesh_nodes, RingMotions::n_nodes,
       RingMotions::named_nodes, RingMotions::position, RingMotions::reference,
       RingMotions::reference_name, RingMotions::reference_node;
@@ -76,13 +83,21 @@ class DofMap : RingMotions {
   const std::vector<int>& components() const { return components_; }
   int n_components() const { return static_cast<int>(components_.size()); }
   int n_dofs() const { return n_components() * n_active(); }
+  /// Whether no node has this component (0 to 5) because the model holds it at zero.
+  bool holds(int component) const;
+  /// The components of the motion of a node, ascending; the others are held or do not exist.
+  std::vector<int> components_of(int node) const;
   /// The DOF of a component (0 to 5) of an active number; absent if the nodes do not have it.
   std::optional<int> dof_of_number(int active, int component) const;
   /// The DOF that equals this component (0 to 5) of the node's motion; absent where couplings make
   /// it a combination of others, and where the nodes do not have this component.
   std::optional<int> dof(int node, int component) const;
+  /// The DOF of a component (0 to 5) of harmonic k of a ring; absent if its nodes do not have it.
+  std::optional<int> harmonic_dof(const HarmonicRing& ring, int k, int component) const;
 
  private:
+  std::optional<int> dof_at(int coordinate) const;
+
   std::vector<int> components_;
 };
 
@@ -95,13 +110,14 @@ extern const std::array<const char*, 6> component_names;
 /// @throws chladni::Error, naming the couplings, for an unknown group, a node in two couplings,
 ///         links in a circle, groups of a link whose nodes do not pair, averages that overlap or
 ///         determine no rotation, a name that the mesh already uses, averages or harmonics of nodes
-///         with fewer than six components; and as `with_ring_harmonics`.
+///         with fewer than six components, a node of a solid on which a shell, a beam, or what
+///         follows it would hang as on a hinge; and as `with_ring_harmonics`.
 DofMap make_dof_map(const mesh::Mesh& mesh, const Kinematics& kinematics,
                     std::span<const int> owners, int n_ranks);
 
 /// The DOFs that the supports hold at zero, ascending, each once; the same on every rank.
-/// @throws chladni::Error for an unknown group, a group without nodes, and a node whose motion
-///         follows a coupling, naming what to support instead.
+/// @throws chladni::Error for an unknown group, a group without nodes, rotations of nodes that have
+///         none, and a node whose motion follows a coupling, naming what to support instead.
 std::vector<int> held_dofs(const mesh::Mesh& mesh, const DofMap& dofs,
                            std::span<const Support> supports);
 

@@ -36,7 +36,7 @@ std::vector<bool> have_other_stiffness(const mesh::Mesh& mesh, const DofMap& dof
     if (dofs.is_dependent(node)) have[node] = true;
     // The end of a lever, which no element has, resists nothing.
     if (dofs.is_dependent(node) && is_of_element[node]) have[dofs.reference(node)] = true;
-    if (node >= dofs.n_mesh_nodes() || !dofs.is_plain(node)) have[node] = true;
+    if (node >= dofs.n_mesh_nodes() || !dofs.is_independent(node)) have[node] = true;
   }
   for (const HarmonicRing& ring : dofs.harmonic_rings())
     for (const int node : ring.nodes) have[node] = false;  // combined, but of shells alone
@@ -164,7 +164,7 @@ MatrixX3d drilling_axes(const mesh::Mesh& mesh, const DofMap& dofs, std::span<co
     const Vector3d n = normals.row(node);
     int nearest = 0;
     n.cwiseAbs().maxCoeff(&nearest);
-    if (std::ranges::binary_search(dofs.components(), 3 + nearest)) axes.row(i) = n;
+    if (!dofs.holds(3 + nearest)) axes.row(i) = n;
   }
   return axes;
 }

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -139,14 +140,13 @@ RowVector6d rigid_row(const Vector3d& position, const Extent& extent, int compon
   return row;
 }
 
-/// For each body G with x^T G x = 0 for the rigid motions x of its parts that nothing resists.
+/// For each body R with R x = 0 for the rigid motions x of its parts that nothing resists.
 class Resistance {
  public:
   Resistance(const DofMap& dofs, const Parts& parts, const std::vector<Extent>& extents)
       : dofs_(dofs), parts_(parts), extents_(extents)
   {
-    for (const Extent& extent : extents)
-      gram_.push_back(MatrixXd::Zero(6 * extent.n_parts, 6 * extent.n_parts));
+    for (const Extent& extent : extents) rows_.emplace_back(0, 6 * extent.n_parts);
   }
 
   /// This component of the node does not move, but for a rotation about the axis.
@@ -167,7 +167,15 @@ class Resistance {
     for (const int component : spring.components)
       resist(spring.nodes, rigid_row(middle, extents_[body_of(a)], component));
   }
-  const std::vector<MatrixXd>& gram() const { return gram_; }
+  /// The motions of a body that nothing resists, orthonormal.
+  MatrixXd unresisted(int body) const
+  {
+    const MatrixXd& R = rows_[std::size_t(body)];
+    if (R.rows() == 0) return MatrixXd::Identity(R.cols(), R.cols());
+    const Eigen::BDCSVD<MatrixXd> svd(R, Eigen::ComputeFullV);
+    const double least = same_motion * std::max(1.0, R.norm());
+    return svd.matrixV().rightCols(R.cols() - (svd.singularValues().array() >= least).count());
+  }
 
  private:
   int part_of(int node) const { return parts_.of_number[number_of(dofs_, node)]; }
@@ -176,48 +184,38 @@ class Resistance {
   /// @param nodes  one against the ground, or two against each other
   void resist(std::span<const int> nodes, const RowVector6d& motion)
   {
-    MatrixXd& G = gram_[body_of(nodes.front())];
-    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(G.cols());
+    MatrixXd& R = rows_[body_of(nodes.front())];
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(R.cols());
     row.segment<6>(6 * parts_.place[part_of(nodes.front())]) += motion;
     if (nodes.size() > 1) row.segment<6>(6 * parts_.place[part_of(nodes.back())]) -= motion;
-    G += row.transpose() * row;
+    R.conservativeResize(R.rows() + 1, Eigen::NoChange);
+    R.row(R.rows() - 1) = row;
+    if (R.rows() < 4 * R.cols()) return;
+    // R^T R would have the squares of the small motions, beneath its round-off.
+    const Eigen::HouseholderQR<MatrixXd> qr(R);
+    R = MatrixXd(qr.matrixQR().topRows(R.cols()).triangularView<Eigen::Upper>());
   }
 
   const DofMap& dofs_;
   const Parts& parts_;
   const std::vector<Extent>& extents_;
-  std::vector<MatrixXd> gram_;
+  std::vector<MatrixXd> rows_;
 };
 
-/// What supports hold, and the components that the nodes of shells and beams do not have. Nodes of
-/// solids have no rotations to be held.
-void hold_supports(const mesh::Mesh& mesh, const DofMap& dofs, const Restraints& restraints,
-                   Resistance& resistance)
+/// What supports and the model hold. Nodes of solids have no rotations to be held.
+void hold_supports(const DofMap& dofs, const Restraints& restraints, Resistance& resistance)
 {
-  const bool has_solids =
-      std::ranges::any_of(mesh.blocks, [](const auto& block) { return is_solid(block.shape); });
   const std::vector<int>& held = restraints.held;
   for (int node = 0; node < dofs.n_nodes(); ++node) {
     const Vector3d axis =
         node < restraints.axes.rows() ? Vector3d(restraints.axes.row(node)) : Vector3d::Zero();
     for (int component = 0; component < 6; ++component) {
       const auto dof = dofs.dof(node, component);
-      const bool has_component = std::ranges::binary_search(dofs.components(), component);
       if (dof ? std::ranges::binary_search(held, *dof)
-              : dofs.is_plain(node) && !has_component && !has_solids)
+              : dofs.is_independent(node) && dofs.holds(component))
         resistance.hold(node, component, dof ? axis : Vector3d::Zero());
     }
   }
-}
-
-MatrixXd null_space(const MatrixXd& G)
-{
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(G);
-  Index n = 0;
-  while (n < G.rows() &&
-         eigen.eigenvalues()[n] < same_motion * same_motion * std::max(1.0, G.trace()))
-    ++n;
-  return eigen.eigenvectors().leftCols(n);
 }
 
 }  // namespace
@@ -236,11 +234,11 @@ std::vector<FreePart> free_parts_under(const mesh::Mesh& mesh, const DofMap& dof
   const Parts parts = connected_parts(mesh, dofs, placed);
   const std::vector<Extent> extent = extents(dofs, parts);
   Resistance resistance(dofs, parts, extent);
-  hold_supports(mesh, dofs, restraints, resistance);
+  hold_supports(dofs, restraints, resistance);
   for (const PlacedSpring& spring : placed) resistance.add(spring);
   std::vector<FreePart> free;
   for (int body = 0; body < parts.n_bodies; ++body) {
-    MatrixXd motions = null_space(resistance.gram()[static_cast<std::size_t>(body)]);
+    MatrixXd motions = resistance.unresisted(body);
     if (motions.cols() == 0) continue;
     free.push_back({.n_nodes = extent[body].n_nodes,
                     .centre = extent[body].centre,

@@ -62,6 +62,28 @@ std::vector<int> nodes_between(const mesh::Mesh& mesh, const DofMap& dofs, const
   return {a, b};
 }
 
+/// Nodes of solids have no rotations that inertia, an offset, springs or forces beside the line
+/// between two nodes could act on.
+/// @param what  `mass at "pin"`
+void refuse_moments(const mesh::Mesh& mesh, const DofMap& dofs, const PointElement& element,
+                    const std::string& what)
+{
+  constexpr double round_off = 1e-12;
+  for (std::size_t i = 0; i < element.nodes.size(); ++i) {
+    if (dofs.has_rotations(element.nodes[i])) continue;
+    for (const MatrixXd* A : {&element.K, &element.M, &element.C}) {
+      if (A->size() == 0) continue;
+      const double of_rotations = A->middleRows<3>(6 * Eigen::Index(i) + 3).cwiseAbs().maxCoeff();
+      if (of_rotations <= round_off * A->cwiseAbs().maxCoeff()) continue;
+      throw Error(fmt::format(
+          "{}: node {} of a solid has no rotations, so that no moment (of inertia, an offset, a "
+          "rotational spring, or a force beside the line between two nodes) can act there; take it "
+          "out, or couple a group of nodes rigidly ([[coupling]]) and take the coupling's name",
+          what, mesh.node_numbers[element.nodes[i]]));
+    }
+  }
+}
+
 PointElement spring_between(const mesh::Mesh& mesh, const DofMap& dofs, const Spring& spring)
 {
   const std::vector<int> nodes = nodes_between(mesh, dofs, spring);
@@ -120,19 +142,24 @@ std::vector<PointElement> point_elements(const mesh::Mesh& mesh, const Structure
 {
   refuse_drilling(mesh, dofs, structure);
   std::vector<PointElement> elements;
+  const auto add = [&](PointElement element, const char* what, const std::string& at) {
+    refuse_moments(mesh, dofs, element, fmt::format("{} at \"{}\"", what, at));
+    elements.push_back(std::move(element));
+  };
   for (const PointMass& mass : structure.masses)
     for (const int node : nodes_at(mesh, dofs, "mass at", mass.at))
-      elements.push_back({.nodes = {node}, .K = {}, .M = point_mass_matrix(mass), .C = {}});
+      add({.nodes = {node}, .K = {}, .M = point_mass_matrix(mass), .C = {}}, "mass", mass.at);
   for (const Spring& spring : structure.springs) {
     if (spring.to) {
-      elements.push_back(spring_between(mesh, dofs, spring));
+      add(spring_between(mesh, dofs, spring), "spring", spring.at);
       continue;
     }
     for (const int node : nodes_at(mesh, dofs, "spring at", spring.at)) {
-      elements.push_back(
-          spring_element({node}, spring, [](const std::array<double, 6>& k) -> MatrixXd {
-            return Eigen::Map<const Eigen::Vector<double, 6>>(k.data()).asDiagonal();
-          }));
+      add(spring_element({node}, spring,
+                         [](const std::array<double, 6>& k) -> MatrixXd {
+                           return Eigen::Map<const Eigen::Vector<double, 6>>(k.data()).asDiagonal();
+                         }),
+          "spring", spring.at);
     }
   }
   return elements;

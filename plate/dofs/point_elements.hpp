@@ -19,7 +19,8 @@ struct PointElement {
 
 /// The point elements of all masses and springs, in their order.
 /// @throws chladni::Error for an unknown name, a group without nodes, a spring between several
-///         nodes or from a node to itself, and for what acts about a drilling axis (drilling.hpp).
+///         nodes or from a node to itself, for what acts about a drilling axis (drilling.hpp), and
+///         for moments at nodes of solids, which have no rotations.
 std::vector<PointElement> point_elements(const mesh::Mesh& mesh, const Structure& structure,
                                          const DofMap& dofs);
 

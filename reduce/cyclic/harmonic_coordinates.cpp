@@ -69,11 +69,12 @@ class Builder {
  private:
   int n_components() const { return static_cast<int>(sector_.components.size()); }
   int row(int block, int i) const { return block * n_components() + i; }
-  /// Place of a component in a block; -1 where it is held.
-  int place_of(int component) const
+  /// Place of a component in a block; -1 where it is held or in another one.
+  int place_of(int block, int component) const
   {
-    const auto it = std::ranges::find(sector_.components, component);
-    return it == sector_.components.end() ? -1 : static_cast<int>(it - sector_.components.begin());
+    for (int i = 0; i < n_components(); ++i)
+      if (sector_.component(block, i) == component) return i;
+    return -1;
   }
 
   int new_coordinate(const CoordinateOrigin& origin)
@@ -104,10 +105,8 @@ class Builder {
     const int first = static_cast<int>(partner_.size());
     const int n = n_components();
     const auto new_one = [&](int i, bool of_y) {
-      return new_coordinate({.block = block,
-                             .place = 0,
-                             .component = sector_.components[std::size_t(i)],
-                             .of_y = of_y});
+      return new_coordinate(
+          {.block = block, .place = 0, .component = sector_.component(block, i), .of_y = of_y});
     };
     for (int i = 0; i < n; ++i) put(x_, block, i, new_one(i, false), 1.0);
     if (one_phase_) return first;
@@ -146,10 +145,17 @@ class Builder {
   /// Nodes on the axis move along and about it with harmonic 0, across it with harmonic 1.
   void add_axis(int index)
   {
-    const int block = sector_.axis[std::size_t(index)];
+    add_axis_block(index, sector_.axis[std::size_t(index)]);
+    if (sector_.axis_rotations.empty()) return;
+    const int rotations = sector_.axis_rotations[std::size_t(index)];
+    if (rotations >= 0) add_axis_block(index, rotations);
+  }
+
+  void add_axis_block(int index, int block)
+  {
     is_done_[std::size_t(block)] = true;
     for (int component = 0; component < 6; ++component) {
-      const int i = place_of(component);
+      const int i = place_of(block, component);
       const bool is_along = component % 3 == 2;
       if (i < 0 || order_ != (is_along ? 0 : 1)) continue;
       const int coordinate =
@@ -160,7 +166,8 @@ class Builder {
       if (is_along) continue;
       // (x, y) of the node: along x with (e_x, e_y), along y with (e_y, -e_x).
       const bool is_x = component % 3 == 0;
-      put(y_, block, place_of(is_x ? component + 1 : component - 1), coordinate, is_x ? 1.0 : -1.0);
+      put(y_, block, place_of(block, is_x ? component + 1 : component - 1), coordinate,
+          is_x ? 1.0 : -1.0);
       if (!is_x) pair(coordinate - 1, coordinate, -1.0);
     }
   }
@@ -605,7 +612,7 @@ std::optional<double> middle_angle(const SectorDofs& sector, const Eigen::Matrix
 }
 
 /// The block at each block's mirrored position; empty where there is none.
-std::vector<int> images(const Eigen::MatrixX3d& positions, double angle)
+std::vector<int> images(const SectorDofs& sector, const Eigen::MatrixX3d& positions, double angle)
 {
   constexpr double placement = 1e-6;
   const double tolerance = placement * positions.rowwise().norm().maxCoeff();
@@ -622,7 +629,7 @@ std::vector<int> images(const Eigen::MatrixX3d& positions, double angle)
     for (auto it = std::ranges::lower_bound(by_x, there.x() - tolerance, {}, x_of);
          it != by_x.end() && x_of(*it) <= there.x() + tolerance; ++it) {
       const double distance = (position(positions, *it) - there).norm();
-      if (distance > least) continue;
+      if (distance > least || sector.is_rotating(*it) != sector.is_rotating(block)) continue;
       least = distance;
       nearest = *it;
     }
@@ -641,10 +648,10 @@ SparseRows reflection_of_dofs(const SectorDofs& sector, const Mirror& mirror)
   for (int block = 0; block < sector.n_blocks; ++block) {
     for (int i = 0; i < n_c; ++i) {
       for (int j = 0; j < n_c; ++j) {
-        const double value = reflection_entry(Q, sector.components[std::size_t(i)],
-                                              sector.components[std::size_t(j)]);
-        if (value != 0.0)
-          entries.emplace_back(n_c * block + i, n_c * mirror.image[std::size_t(block)] + j, value);
+        const int image = mirror.image[std::size_t(block)];
+        const double value =
+            reflection_entry(Q, sector.component(block, i), sector.component(image, j));
+        if (value != 0.0) entries.emplace_back(n_c * block + i, n_c * image + j, value);
       }
     }
   }
@@ -695,9 +702,8 @@ class Reflection {
     const auto n_c = static_cast<int>(sector_.components.size());
     const SparseRows& phase = origin.of_y ? c_.Y : c_.X;
     for (int j = 0; j < n_c; ++j) {
-      const double value =
-          (origin.of_y ? -1.0 : 1.0) *
-          reflection_entry(Q_, origin.component, sector_.components[std::size_t(j)]);
+      const double value = (origin.of_y ? -1.0 : 1.0) *
+                           reflection_entry(Q_, origin.component, sector_.component(image, j));
       if (value == 0.0) continue;
       for (SparseRows::InnerIterator it(phase, n_c * image + j); it; ++it)
         entries.emplace_back(row, int(it.index()), value * it.value());
@@ -770,7 +776,7 @@ std::optional<Mirror> find_mirror(const SectorDofs& sector, const Eigen::MatrixX
 {
   const std::optional<double> angle = middle_angle(sector, positions);
   if (!angle) return std::nullopt;
-  Mirror mirror{.angle = *angle, .image = images(positions, *angle)};
+  Mirror mirror{.angle = *angle, .image = images(sector, positions, *angle)};
   if (mirror.image.empty()) return std::nullopt;
   const auto maps_to_itself = [&](const Ring& ring) {
     return std::ranges::all_of(ring.blocks, [&](int block) {

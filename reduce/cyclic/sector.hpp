@@ -35,8 +35,21 @@ struct SectorDofs {
   std::vector<int> axis;                  ///< blocks of nodes on the axis; all are masters
   std::vector<Ring> rings;
   std::optional<Mirror> mirror = {};  ///< `find_mirror`
+  /// [n_blocks] Whether a block holds rotations: in a model with solids `components` are 0 to 2,
+  /// and a node with rotations has a second block for these. Empty: no block does.
+  std::vector<char> rotating = {};
+  std::vector<int> axis_rotations = {};  ///< these of nodes on the axis, -1: none; empty: all none
 
   int n_dofs() const { return n_blocks * static_cast<int>(components.size()); }
+  bool is_rotating(int block) const
+  {
+    return !rotating.empty() && rotating[static_cast<std::size_t>(block)] != 0;
+  }
+  /// The component (0 to 5) at a place of a block.
+  int component(int block, int place) const
+  {
+    return components[static_cast<std::size_t>(place)] + (is_rotating(block) ? 3 : 0);
+  }
 };
 
 /// The number of harmonics 0 .. floor(count / 2). From a sector to the next the motion is
