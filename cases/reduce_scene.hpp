@@ -11,7 +11,9 @@
 #include "mesh/mesh.hpp"
 #include "reduce/reduce_options.hpp"
 #include "reduce/reduction.hpp"
+#include "report/json.hpp"
 #include "report/progress.hpp"
+#include "report/text_table.hpp"
 #include "scene/scene.hpp"
 
 namespace chladni::cases {
@@ -54,5 +56,16 @@ std::vector<report::Stage> stages_of(const reduce::ReduceOptions& wanted);
 
 /// The phases of a reduction from one sector, with their usual share of the time, per cent.
 std::vector<report::Stage> stages_of_sectors();
+
+/// A table of the sizes of a reduction and the cost of its factorisation.
+report::TextTable reduction_table(const ReduceSummary& summary);
+
+/// The table of `reduction_table`, and a line with the reason if the method was chosen
+/// automatically.
+std::string described_reduction(const ReduceSummary& summary);
+
+/// The JSON members `n_dofs`, `n_nodes`, `n_masters`, `n_modes`, `certified_frequencies_Hz` with
+/// their `eta2`, `factor_wall_s`, `factor_cpu_s`.
+std::vector<report::Json::Member> reduction_json(const ReduceSummary& summary);
 
 }  // namespace chladni::cases

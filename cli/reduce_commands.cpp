@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "cases/compare_reductions.hpp"
-#include "cases/describe_reduction.hpp"
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"

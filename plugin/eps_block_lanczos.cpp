@@ -23,7 +23,6 @@
 #include "plugin/chladni_cms.h"
 #include "plugin/cms_impl.hpp"
 #include "plugin/eps_operator.hpp"
-#include "plugin/eps_refusals.hpp"
 #include "plugin/eps_slices.hpp"
 
 using namespace chladni;  // NOLINT(google-build-using-namespace)

@@ -1,4 +1,4 @@
-#include "plugin/eps_refusals.hpp"
+#include "plugin/eps_block_lanczos.hpp"
 
 #include <slepc/private/epsimpl.h>
 
