@@ -1,5 +1,7 @@
 #include "linear/dense/products.hpp"
 
+#include "linear/dense/avx2_products.hpp"
+
 #if !EIGEN_VERSION_AT_LEAST(3, 4, 90)
 
 namespace chladni::linear {
@@ -132,10 +134,27 @@ void add_vector(const StridedMatrix<const Entry>& A, const StridedMatrix<const E
   add_matrix_vector(A, x, factor, y);
 }
 
+#ifdef __x86_64__
+template <typename Entry>
+RawFactor<Entry> columns_or_rows(const StridedMatrix<const Entry>& A, bool stands_in_columns)
+{
+  return {A.values, stands_in_columns ? A.column_step : A.row_step, stands_in_columns};
+}
+#endif
+
 template <typename Entry, int order_A, int order_B>
 void add_large(const StridedMatrix<const Entry>& A, const StridedMatrix<const Entry>& B,
                Entry factor, const StridedMatrix<Entry>& C)
 {
+#ifdef __x86_64__
+  static const bool are_there = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (are_there) {
+    add_product_by_avx2(columns_or_rows(A, order_A == Eigen::ColMajor),
+                        columns_or_rows(B, order_B == Eigen::ColMajor), factor, C.values,
+                        C.column_step, {C.n_rows, C.n_columns, A.n_columns});
+    return;
+  }
+#endif
   const Index m = C.n_rows, n = C.n_columns, k = A.n_columns;
   Eigen::internal::gemm_blocking_space<Eigen::ColMajor, Entry, Entry, Dynamic, Dynamic, Dynamic>
       blocking(m, n, k, 1, true);

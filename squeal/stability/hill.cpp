@@ -53,15 +53,17 @@ void require_room(double speed, Index m, Index N)
       speed, m / 2, N, needed, machine));
 }
 
-/// Of all groups, and what the sum of their growth rates is off the trace.
+/// Of the groups, and of all of them what the sum of their growth rates is off the trace.
 HillExponents exponents_of(const std::vector<NearGroup>& groups, const TurningModes& modes)
 {
   std::vector<std::complex<double>> all;
   HillExponents result{{}, 0, 0.0, 0, 0};
   double trace = modes.lambda.sum().real();
+  Index n_states = 0;
   for (const NearGroup& group : groups) {
     const GroupExponents found = group_exponents(group, modes.step);
     trace -= (group.has_mirror ? 2.0 : 1.0) * found.lambda.sum().real();
+    n_states += (group.has_mirror ? 2 : 1) * found.lambda.size();
     for (const std::complex<double>& lambda : found.lambda)
       if (group.has_mirror || lambda.imag() >= 0.0) all.push_back(lambda);
     result.error = std::max({result.error, group.error, found.error});
@@ -69,7 +71,7 @@ HillExponents exponents_of(const std::vector<NearGroup>& groups, const TurningMo
   }
   std::ranges::sort(all, [](const auto& a, const auto& b) { return a.real() > b.real(); });
   result.lambda = Eigen::Map<Eigen::VectorXcd>(all.data(), static_cast<Eigen::Index>(all.size()));
-  result.error = std::max(result.error, std::abs(trace));
+  if (n_states == modes.size()) result.error = std::max(result.error, std::abs(trace));
   return result;
 }
 
@@ -93,7 +95,7 @@ int Hill::nu(double speed) const
   return harmonics(speed).nu;
 }
 
-HillExponents Hill::exponents(double speed) const
+HillExponents Hill::exponents(double speed, std::optional<Index> n_least_stable) const
 {
   const TurningHarmonics harmonics = this->harmonics(speed);
   const int nu = std::max(1, harmonics.nu);
@@ -101,7 +103,7 @@ HillExponents Hill::exponents(double speed) const
   for (Eigen::Index N = power_of_two(2 * highest + 1); N <= n_samples_max; N *= 2) {
     require_room(speed, harmonics.A_0.rows(), N);
     const TurningModes modes = turning_modes(harmonics, N);
-    const std::vector<NearGroup> groups = near_groups(modes, tolerance_);
+    const std::vector<NearGroup> groups = near_groups(modes, tolerance_, n_least_stable);
     double error = 0.0;
     for (const NearGroup& group : groups) error = std::max(error, group.error);
     if (error > tolerance_) continue;

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include <optional>
+
 #include "squeal/brake/disc.hpp"
 #include "squeal/brake_options.hpp"
 #include "squeal/stability/near_groups.hpp"
@@ -35,9 +37,11 @@ class Hill {
   Hill(const Disc& disc, const SquealOptions& options, double tolerance = 1e-4);
 
   /// The exponents at a speed.
-  /// @param speed  rad/s, > 0
+  /// @param speed           rad/s, > 0
+  /// @param n_least_stable  those of so many motions that grow most, at least, in a small part of
+  ///                        the time; their sum is not checked against the trace
   /// @throws chladni::Error when K = 512 nu is not sufficient.
-  HillExponents exponents(double speed) const;
+  HillExponents exponents(double speed, std::optional<Eigen::Index> n_least_stable = {}) const;
 
   /// Number of periods of the equations in a rotation at this speed (rad/s); 0: they are constant.
   int nu(double speed) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "common/eigen_every.hpp"
+#include "squeal/stability/hill.hpp"
 
 namespace chladni::squeal {
 
@@ -39,6 +41,10 @@ constexpr double F_error = 1e-7;
 constexpr double share_limit = 0.5, long_share_limit = 0.03;
 
 constexpr int n_iterations_max = 80;
+/// Of the change of X eight steps before, from the sixteenth on: what falls no faster does not
+/// settle within all of them.
+constexpr double slowest = 0.2;
+constexpr std::size_t steps_looked_back = 8, steps_until_known = 16;
 
 /// The iteration for one group; X is zero in the rows of the group. In each step P B P^* multiplies
 /// the columns of `put` at every sample, for all groups at once; `take` is given the product.
@@ -81,13 +87,16 @@ class Reduction {
     const AngleHarmonics change = c - c_before(c);
     const double size = std::sqrt(change.cwiseAbs2().maxCoeff());
     const bool diverges = n_steps_ > 2 && size > 3.0 * least_;
-    if (!(c.cwiseAbs2().maxCoeff() < share_limit * share_limit) || diverges) {
+    sizes_.push_back(size);
+    const bool creeps = sizes_.size() > steps_until_known &&
+                        size > slowest * sizes_.end()[-1 - std::ptrdiff_t(steps_looked_back)];
+    if (!(c.cwiseAbs2().maxCoeff() < share_limit * share_limit) || diverges ||
+        (creeps && !is_settled())) {
       outcome_ = worst(change);
       return;
     }
     least_ = std::min(least_, size);
-    const bool settled =
-        n_steps_ > 0 && (F_ - F_before_).cwiseAbs2().maxCoeff() < F_error * F_error;
+    const bool settled = is_settled();
     F_before_ = F_;
     c_ = c;
     if (settled)
@@ -102,6 +111,11 @@ class Reduction {
   Eigen::Map<Eigen::MatrixXcd> matrix(AngleSamples& f, Index column, Index rows) const
   {
     return {f.col(column).data(), rows, g_};
+  }
+
+  bool is_settled() const
+  {
+    return n_steps_ > 0 && (F_ - F_before_).cwiseAbs2().maxCoeff() < F_error * F_error;
   }
 
   AngleHarmonics c_before(const AngleHarmonics& c) const
@@ -166,6 +180,7 @@ class Reduction {
   AngleSamples X_, F_, F_before_;
   AngleHarmonics c_;
   double least_ = std::numeric_limits<double>::infinity();
+  std::vector<double> sizes_;  ///< of the changes of X
   int n_steps_ = 0;
   std::optional<Reduced> outcome_;
 };
@@ -284,35 +299,145 @@ class Sets {
   States mirror_, set_;
 };
 
-/// States that B couples by much of their distance, each harmonic by itself.
-void unite_near(Sets& sets, const TurningModes& modes)
+/// A harmonic of P B P^*, the coupling of the eigenvectors of A_0, between some of the states,
+/// which hold both of each conjugate pair.
+Eigen::MatrixXcd coupling(const TurningModes& modes, const Eigen::MatrixXcd& B_k,
+                          const States& states)
 {
-  const AngleHarmonics c = harmonics_of(modes.B.cast<Complex>());
-  const Index m = modes.size(), N = c.cols();
-  for (Index column = 0; column < N; ++column) {
-    const Index k = order_of(column, N);
-    if (std::abs(k) > modes.highest) continue;
-    const Eigen::MatrixXcd PB = from_real_pairs(modes.lambda, c.col(column).reshaped(m, m));
-    const Eigen::MatrixXcd B = from_real_pairs(modes.lambda, PB.adjoint()).adjoint();
+  const Eigen::VectorXcd lambda = modes.lambda(states);
+  const Eigen::MatrixXcd PB = from_real_pairs(lambda, B_k);
+  return from_real_pairs(lambda, PB.adjoint()).adjoint();
+}
+
+/// What each state has of others by the second order of B, by way of them and back, without those
+/// that are near.
+struct SecondOrder {
+  Eigen::VectorXcd shift;  ///< [m] of lambda, 1/s
+  Eigen::VectorXd doubt;   ///< [m] 1/s
+};
+
+/// Unites states that B couples by much of their distance, each harmonic by itself.
+/// @param c  harmonics of B
+SecondOrder unite_near(Sets& sets, const TurningModes& modes, const AngleHarmonics& c)
+{
+  constexpr double of_next_order = 0.5;
+  const Index m = modes.size();
+  States all(static_cast<std::size_t>(m));
+  std::iota(all.begin(), all.end(), Index{0});
+  SecondOrder order{Eigen::VectorXcd::Zero(m), Eigen::VectorXd::Zero(m)};
+  const auto harmonic = [&](Index k) {
+    return coupling(modes, c.col(column_of(k, c.cols())).reshaped(m, m), all);
+  };
+  for (Index k = 1; k <= std::min(modes.highest, c.cols() / 2 - 1); ++k) {
+    const Eigen::MatrixXcd up = harmonic(k), down = harmonic(-k);
+    const auto couple = [&](const Eigen::MatrixXcd& there, const Eigen::MatrixXcd& back,
+                            Complex turned, Index i, Index j) {
+      const Complex d = turned - modes.lambda[i] + modes.lambda[j];
+      if (i == j || std::abs(there(i, j)) <= near * std::abs(d)) {
+        const Complex shift = back(j, i) * there(i, j) / d;
+        order.shift[j] += shift;
+        order.doubt[j] += of_next_order * std::abs(shift);
+      } else {
+        sets.unite({i, j});
+      }
+    };
     const Complex turn{0.0, double(k) * modes.step};
     for (Index j = 0; j < m; ++j)
-      for (Index i = 0; i < m; ++i)
-        if (std::abs(B(i, j)) > near * std::abs(turn - modes.lambda[i] + modes.lambda[j]) && i != j)
-          sets.unite({i, j});
+      for (Index i = 0; i < m; ++i) {
+        couple(up, down, turn, i, j);
+        couple(down, up, -turn, i, j);
+      }
   }
+  return order;
+}
+
+/// Growth rates of a set of states, 1/s.
+struct Estimates {
+  Eigen::VectorXd growth;
+  double doubt;
+};
+
+/// The equations of a set by themselves, with the second order of all others in their diagonal.
+NearGroup equations_alone(const States& states, const Sets& sets, const TurningModes& modes,
+                          const AngleHarmonics& c, const SecondOrder& order)
+{
+  constexpr double enough = 1.0;  // 1/s: to tell which of the sets count
+  const auto g = std::ssize(states);
+  States closed = states;
+  for (const Index i : states) closed.push_back(sets.mirror(i));
+  std::ranges::sort(closed);
+  closed.erase(std::unique(closed.begin(), closed.end()), closed.end());
+  std::vector<Index> at;
+  for (const Index i : states) at.push_back(std::ranges::lower_bound(closed, i) - closed.begin());
+  NearGroup group{states, true, AngleHarmonics(g * g, c.cols()), modes.highest, enough};
+  const Index m = modes.size();
+  for (Index column = 0; column < c.cols(); ++column) {
+    const Eigen::Map<const Eigen::MatrixXcd> B_k(c.col(column).data(), m, m);
+    group.F.col(column) = coupling(modes, B_k(closed, closed), closed)(at, at).reshaped();
+  }
+  for (Index j = 0; j < g; ++j) {
+    const Index i = states[static_cast<std::size_t>(j)];
+    group.F(j * g + j, 0) += modes.lambda[i] + order.shift[i];
+  }
+  return group;
+}
+
+Estimates estimates_of(const States& states, const Sets& sets, const TurningModes& modes,
+                       const AngleHarmonics& c, const SecondOrder& order)
+{
+  constexpr Index large = 12;  // its equations take longer than they save
+  Estimates found{(modes.lambda + order.shift)(states).real(), order.doubt(states).maxCoeff()};
+  if (states.size() == 1) return found;
+  if (std::ssize(states) > large) return {found.growth, std::numeric_limits<double>::infinity()};
+  const GroupExponents alone =
+      group_exponents(equations_alone(states, sets, modes, c, order), modes.step);
+  return {alone.lambda.real(), found.doubt + alone.error};
+}
+
+/// Marks, by their lowest states, the sets that may hold one of the n motions that grow most.
+std::vector<char> may_be_wanted(const Sets& sets, const TurningModes& modes,
+                                const AngleHarmonics& c, const SecondOrder& order, Index n)
+{
+  std::vector<char> wanted(static_cast<std::size_t>(modes.size()), 0);
+  std::vector<double> at_least, at_most;
+  for (const Index set : sets.sets()) {
+    const Estimates of = estimates_of(sets.states(set), sets, modes, c, order);
+    for (const double growth : of.growth) at_least.push_back(growth - of.doubt);
+    at_most.push_back(of.growth.maxCoeff() + of.doubt);
+  }
+  n = std::clamp<Index>(n, 1, std::ssize(at_least));
+  std::ranges::nth_element(at_least, at_least.begin() + (n - 1), std::greater<>());
+  const double limit = at_least[static_cast<std::size_t>(n - 1)];
+  std::size_t k = 0;
+  for (const Index set : sets.sets()) {
+    if (at_most[k++] < limit) continue;
+    for (const Index i : sets.states(set)) wanted[static_cast<std::size_t>(i)] = 1;
+  }
+  return wanted;
 }
 
 }  // namespace
 
-std::vector<NearGroup> near_groups(const TurningModes& modes, double tolerance)
+std::vector<NearGroup> near_groups(const TurningModes& modes, double tolerance,
+                                   std::optional<Index> n_least_stable)
 {
   Sets sets(modes.lambda);
-  unite_near(sets, modes);
+  std::vector<char> wanted(static_cast<std::size_t>(modes.size()), 1);
+  {
+    const AngleHarmonics c = harmonics_of(modes.B.cast<Complex>());
+    const SecondOrder order = unite_near(sets, modes, c);
+    if (n_least_stable) wanted = may_be_wanted(sets, modes, c, order, *n_least_stable);
+  }
+  const auto is_wanted = [&](Index set) {
+    return std::ranges::any_of(sets.states(set),
+                               [&](Index i) { return wanted[static_cast<std::size_t>(i)] != 0; });
+  };
   std::vector<std::optional<NearGroup>> done(static_cast<std::size_t>(modes.size()));
   for (bool changed = true; changed;) {
     changed = false;
     std::vector<States> open;
     for (const Index set : sets.sets()) {
+      if (!is_wanted(set)) continue;
       const auto& group = done[static_cast<std::size_t>(set)];
       if (!group || group->states != sets.states(set)) open.push_back(sets.states(set));
     }
@@ -328,6 +453,7 @@ std::vector<NearGroup> near_groups(const TurningModes& modes, double tolerance)
   }
   std::vector<NearGroup> groups;
   for (const Index set : sets.sets()) {
+    if (!is_wanted(set)) continue;
     groups.push_back(std::move(*done[static_cast<std::size_t>(set)]));
     groups.back().has_mirror = !sets.is_its_own_mirror(set);
   }

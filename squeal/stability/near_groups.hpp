@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "squeal/stability/turning_brake.hpp"
@@ -21,8 +22,12 @@ struct NearGroup {
 ///   step dX/dphi = Lambda_q X - X Lambda_g + B_qg + B_qq X - X (B_gg + B_gq X)
 /// by a fixed-point iteration, in which each harmonic is divided by i k step - lambda_i + lambda_j.
 /// If it does not converge, or needs too many harmonics for the error `tolerance` (1/s), the two
-/// states responsible are put into one group. Each state is in a group or in the mirror image of
-/// one.
-std::vector<NearGroup> near_groups(const TurningModes& modes, double tolerance);
+/// states responsible are put into one group.
+/// @param n_least_stable  without it each state is in a group or in the mirror image of one; with
+/// it
+///                      those groups alone are solved that may hold one of so many motions that
+///                      grow most, each by the second order of B and its doubt
+std::vector<NearGroup> near_groups(const TurningModes& modes, double tolerance,
+                                   std::optional<Eigen::Index> n_least_stable = {});
 
 }  // namespace chladni::squeal

@@ -153,7 +153,7 @@ RotationStability rotation_stability(const Disc& disc, const SquealOptions& opti
         const double speed = result.speeds[i];
         if (by_hill) {
           HillExponents& at = exponents[static_cast<std::size_t>(i)];
-          at = hill.exponents(speed);
+          at = hill.exponents(speed, n_worst);
           result.frozen_growth[i] = hill.frozen_growth(speed, at.nu);
           return;
         }
@@ -175,7 +175,7 @@ RotationStability rotation_stability(const Disc& disc, const SquealOptions& opti
   // Growth within its own error is none: the search would only follow what the errors do.
   const auto growth = [&](double speed) {
     if (!by_hill) return rotation_growth(disc, options, speed).growth;
-    const HillExponents at = hill.exponents(speed);
+    const HillExponents at = hill.exponents(speed, n_worst);
     const double largest = at.lambda[0].real();
     return std::abs(largest) <= at.error ? 0.0 : largest;
   };

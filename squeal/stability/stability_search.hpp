@@ -121,18 +121,19 @@ double height(const Sample& sample, Eigen::Index j, const Sample& from)
   return from.is_unstable(j) ? -sample.growth(j) : sample.growth(j);
 }
 
-/// Whether the height has a maximum at the middle sample and may exceed zero near it; see
-/// stability_search.cpp.
+/// Whether the height has a maximum at the middle one of three samples and may exceed zero near it;
+/// see stability_search.cpp.
 template <class Sample>
-bool may_change(const Neighbours<Sample>& t, Eigen::Index j)
+bool may_change(const Sample& low_one, const Sample& middle_one, const Sample& high_one,
+                Eigen::Index j)
 {
-  if (t.low.is_unstable(j) != t.middle.is_unstable(j) ||
-      t.high.is_unstable(j) != t.middle.is_unstable(j))
+  if (low_one.is_unstable(j) != middle_one.is_unstable(j) ||
+      high_one.is_unstable(j) != middle_one.is_unstable(j))
     return false;
-  const double low = height(t.low, j, t.middle), middle = height(t.middle, j, t.middle),
-               high = height(t.high, j, t.middle);
+  const double low = height(low_one, j, middle_one), middle = height(middle_one, j, middle_one),
+               high = height(high_one, j, middle_one);
   const double rise = 2.0 * middle - low - high;
-  return middle >= low && middle >= high && middle + rise > t.middle.doubt_of(j);
+  return middle >= low && middle >= high && middle + rise > middle_one.doubt_of(j);
 }
 
 /// Searches near the extremum for a sample whose stability differs from that of the middle sample.
@@ -142,7 +143,7 @@ template <class Sample, class Between>
 std::optional<Sample> beyond_extremum(Neighbours<Sample> t, Eigen::Index j, int halvings,
                                       const Between& between)
 {
-  for (int k = 0; k < halvings && may_change(t, j); ++k) {
+  for (int k = 0; k < halvings && may_change(t.low, t.middle, t.high, j); ++k) {
     Sample left = between(t.low, t.middle);
     if (left.is_unstable(j) != t.middle.is_unstable(j)) return left;
     Sample right = between(t.middle, t.high);

@@ -130,6 +130,7 @@ std::vector<ModeSample> with_hidden_changes(const StateMatrixOf& A, std::vector<
                       std::back_inserter(more));
     if (i + 1 == samples.size()) break;
     for (const Index j : which) {
+      if (!may_change(samples[i - 1], samples[i], samples[i + 1], j)) continue;
       const Neighbours<ModeSample> t{samples[i - 1], samples[i], samples[i + 1]};
       if (auto sample = beyond_extremum(t, j, halvings_of_extremum, half_way))
         more.push_back(std::move(*sample));
@@ -342,6 +343,42 @@ std::vector<Index> oscillating(const Eigen::VectorXcd& lambda)
   return at;
 }
 
+/// Right eigenvectors of norm 1 and left ones with y_i^H x_j = delta_ij.
+struct Vectors {
+  Eigen::MatrixXcd X, Y;
+};
+
+/// Those of some eigenvalues. A pair x, conj(x) of the real matrix is the columns Re x, Im x of R;
+/// with the rows a and b of R^-1 there, y^H = (a - i b) / 2: all in real numbers.
+Vectors eigenvectors_of(const Eigen::EigenSolver<Eigen::MatrixXd>& solver,
+                        const std::vector<Index>& at)
+{
+  const Eigen::VectorXcd& lambda = solver.eigenvalues();
+  Eigen::MatrixXd R = solver.pseudoEigenvectors();
+  for (Index j = 0; j < R.cols(); ++j) {
+    const bool is_pair = lambda[j].imag() != 0.0 && j + 1 < R.cols();
+    R.middleCols(j, is_pair ? 2 : 1) /= R.middleCols(j, is_pair ? 2 : 1).norm();
+    if (is_pair) ++j;
+  }
+  const Eigen::MatrixXd S = R.inverse().transpose();
+  Vectors of{Eigen::MatrixXcd(R.rows(), std::ssize(at)),
+             Eigen::MatrixXcd(R.rows(), std::ssize(at))};
+  for (Index k = 0; k < std::ssize(at); ++k) {
+    const Index j = at[static_cast<std::size_t>(k)];
+    const double sign = lambda[j].imag() < 0.0 ? -1.0 : 1.0;
+    const Index first = sign < 0.0 ? j - 1 : j;
+    if (lambda[j].imag() == 0.0) {
+      of.X.col(k) = R.col(j).cast<std::complex<double>>();
+      of.Y.col(k) = S.col(j).cast<std::complex<double>>();
+      continue;
+    }
+    const std::complex<double> i(0.0, sign);
+    of.X.col(k) = R.col(first) + i * R.col(first + 1);
+    of.Y.col(k) = 0.5 * (S.col(first) + i * S.col(first + 1));
+  }
+  return of;
+}
+
 ModeSample in_order(const ModeSample& sample, const std::vector<Index>& order)
 {
   return {sample.value, sample.lambda(order), sample.X(every, order), sample.Y(every, order),
@@ -420,10 +457,9 @@ ModeSample mode_sample(const StateMatrixOf& A, double value)
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(A(value));
   if (solver.info() != Eigen::Success)
     throw Error("eigenvalues of the sliding disc: the QR iteration did not converge");
-  const Eigen::MatrixXcd X = solver.eigenvectors().colwise().normalized();
-  const Eigen::MatrixXcd Y = X.inverse().adjoint();
   const std::vector<Index> at = oscillating(solver.eigenvalues());
-  ModeSample sample{value, solver.eigenvalues()(at), X(every, at), Y(every, at), {}};
+  const Vectors vectors = eigenvectors_of(solver, at);
+  ModeSample sample{value, solver.eigenvalues()(at), vectors.X, vectors.Y, {}};
   sample.doubt.resize(sample.size());
   const double zero = rounding_of(solver.eigenvalues());
   for (Index j = 0; j < sample.size(); ++j) {

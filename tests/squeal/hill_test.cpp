@@ -52,6 +52,28 @@ void expect_floquet(const Disc& disc, const SquealOptions& options)
   }
 }
 
+TEST(Hill, FindsTheLeastStableMotionsAloneAsAmongAll)
+{
+  Disc damped = mistuned_disc();
+  damped.C = Eigen::Vector4d(1.0, 1.0, 60.0, 60.0).asDiagonal();
+  for (const Disc& disc :
+       {damped, mistuned_disc(), disc_with_vanes(), disc_with_damping_on_one_side()}) {
+    const Hill hill(disc, reference_options());
+    for (const double speed : {2.0 * pi, 6.0 * pi, 14.0 * pi}) {
+      const HillExponents all = hill.exponents(speed);
+      for (Eigen::Index n = 1; n <= all.lambda.size(); ++n) {
+        const HillExponents some = hill.exponents(speed, n);
+        ASSERT_GE(some.lambda.size(), n);
+        const Eigen::VectorXd differences = (some.lambda.head(n) - all.lambda.head(n)).real();
+        EXPECT_LT(differences.cwiseAbs().maxCoeff(), some.error + all.error + 1e-9);
+      }
+    }
+  }
+  // The others are left out where it can be told that they decay faster.
+  const Hill hill(damped, reference_options());
+  EXPECT_LT(hill.exponents(6.0 * pi, 1).lambda.size(), hill.exponents(6.0 * pi).lambda.size());
+}
+
 TEST(Hill, GivesTheEigenvaluesOfAnAxisymmetricDisc)
 {
   const Disc disc = disc_of({turned_by(kirchhoff_2(), 0.4), kirchhoff_3()});
