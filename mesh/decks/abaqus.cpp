@@ -333,21 +333,22 @@ class AbaqusReader {
       keyword.refuse("has neither *KINEMATIC nor *DISTRIBUTING behind it");
     kind->expect_only(averages ? std::set<std::string>{"WEIGHTING METHOD"}
                                : std::set<std::string>{});
-    check_components(*kind);
     const std::vector<std::int64_t> nodes =
         abaqus_nodes(keyword, {keyword.place, {}}, keyword.parameter("REF NODE"), sets_);
     if (nodes.size() != 1) keyword.refuse("its reference is not one node");
     const std::string group = "surface_" + keyword.parameter("SURFACE");
-    if (std::ranges::find(deck_.groups, group, &DeckGroup::name) == deck_.groups.end())
+    const auto followers = std::ranges::find(deck_.groups, group, &DeckGroup::name);
+    if (followers == deck_.groups.end())
       keyword.refuse(fmt::format("there is no surface \"{}\"", keyword.parameter("SURFACE")));
+    check_components(*kind, !averages && !have_rotations(deck_, followers->nodes));
     deck_.couplings.push_back({.entry = fmt::format("{}: *COUPLING", keyword.place),
                                .reference = nodes.front(),
                                .group = group,
                                .averages = averages});
   }
 
-  /// All six, which need no data line.
-  static void check_components(const Keyword& kind)
+  /// All six, which need no data line; 1 to 3 suffice for nodes of solids, which do not turn.
+  static void check_components(const Keyword& kind, bool is_of_solids)
   {
     std::vector<bool> found(6, kind.rows.empty());
     for (const KeywordRow& row : kind.rows) {
@@ -357,7 +358,8 @@ class AbaqusReader {
       for (std::int64_t c = first; c <= std::min<std::int64_t>(last, 6); ++c)
         found[std::size_t(c) - 1] = true;
     }
-    if (std::ranges::find(found, false) != found.end())
+    const auto end = is_of_solids ? found.begin() + 3 : found.end();
+    if (std::find(found.begin(), end, false) != end)
       kind.refuse("couples not all components 1 to 6; a scene's coupling does");
   }
 

@@ -278,6 +278,21 @@ TEST(AbaqusSolids, OfFourNodesGetMiddlesThatAreHeldOnTheSkinAlone)
   EXPECT_NE(mesh.notes.at(0).find("far too stiff"), std::string::npos);
 }
 
+TEST(AbaqusSolids, FollowAKinematicCouplingOfThreeComponents)
+{
+  const std::string coupling =
+      "*Node, nset=Ref\n9, 1., 1., 5.\n*Surface, name=Top\nBody, S2\n"
+      "*Coupling, constraint name=C, ref node=Ref, surface=Top\n*Kinematic\n1, 3\n";
+  const Declarations declared = declared_by_abaqus(cube + solid_section + coupling, 1.0);
+  ASSERT_EQ(declared.couplings.size(), 1U);
+  EXPECT_EQ(declared.couplings[0].kind, CouplingOfDeck::rigid);
+  expect_words(error_in_abaqus(
+                   abaqus_plate +
+                   "*Node, nset=Ref\n9, 1., 1., 5.\n*Surface, name=Top\nPlate, SPOS\n"
+                   "*Coupling, constraint name=C, ref node=Ref, surface=Top\n*Kinematic\n1, 3\n"),
+               {"*KINEMATIC", "not all components"});
+}
+
 TEST(AbaqusSolids, AreLeftOutWhereOnlyShellsHaveSections)
 {
   const std::string both = cube + "*Element, type=S4, elset=Plate\n7, 1, 2, 3, 4\n";
@@ -289,6 +304,9 @@ TEST(AbaqusSolids, AreLeftOutWhereOnlyShellsHaveSections)
   ASSERT_EQ(of_solids.blocks.size(), 1U);
   EXPECT_EQ(of_solids.blocks[0].shape, Shape::hexahedron);
   EXPECT_EQ(find_group(of_solids, "PLATE").nodes.size(), 4U);
+  const Mesh of_both =
+      mesh_of(deck_of_abaqus(both), {.shell_groups = {"PLATE"}, .solid_groups = {"BODY"}});
+  EXPECT_EQ(of_both.blocks.size(), 2U);
 }
 
 /// Gmsh writes the elements of each volume under a name of its own, and its groups as sets of them.
