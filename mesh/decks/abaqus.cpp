@@ -30,6 +30,15 @@ const std::unordered_map<std::string, int>& section_keywords()
   return all;
 }
 
+/// Keywords that change nothing of the linear vibrations of isotropic materials.
+const std::set<std::string>& keywords_without_effect()
+{
+  static const std::set<std::string> all{"AMPLITUDE",         "CONDUCTIVITY",  "EXPANSION",
+                                         "ORIENTATION",       "SPECIFIC HEAT", "TIME POINTS",
+                                         "PHYSICAL CONSTANTS"};
+  return all;
+}
+
 const FileElement& type_of_elements(const Keyword& keyword)
 {
   const std::string& name = keyword.parameter("TYPE");
@@ -45,7 +54,8 @@ struct ElementRowOfKeyword {
   std::vector<std::int64_t> numbers;
 };
 
-/// An element goes over several lines where one ends with a comma, or is full.
+/// An element goes on to the next line where one ends with a comma or is full, until it has all its
+/// nodes.
 std::vector<ElementRowOfKeyword> elements_in(const Keyword& keyword)
 {
   constexpr std::size_t full = 16;
@@ -62,7 +72,7 @@ std::vector<ElementRowOfKeyword> elements_in(const Keyword& keyword)
       element.numbers.push_back(keyword.integer(row, i, "number"));
       ++n;
     }
-    goes_on = row.fields.back().empty() || (n == full && element.numbers.size() < n_expected);
+    goes_on = element.numbers.size() < n_expected && (row.fields.back().empty() || n == full);
     if (goes_on || element.numbers.size() == n_expected) continue;
     keyword.refuse(row, fmt::format("{} numbers instead of that of the element and of {} nodes",
                                     element.numbers.size(), n_expected - 1));
@@ -84,6 +94,10 @@ class AbaqusReader {
     add_sets();
     couple();
     note_reduced();
+    for (const auto& [name, n] : left_out_) {
+      deck_.notes.push_back(
+          fmt::format("{} *{} are left out: linear vibrations have no use for it", n, name));
+    }
     note_steps();
     return std::move(deck_);
   }
@@ -126,6 +140,12 @@ class AbaqusReader {
     const auto reader = readers.find(keyword.name);
     if (reader != readers.end()) return (this->*reader->second)(keyword);
     if (known.contains(keyword.name) || section_keywords().contains(keyword.name)) return;
+    const bool is_temperature = keyword.name == "INITIAL CONDITIONS" && keyword.has("TYPE") &&
+                                keyword.parameter("TYPE") == "TEMPERATURE";
+    if (is_temperature || keywords_without_effect().contains(keyword.name)) {
+      ++left_out_[keyword.name];
+      return;
+    }
     keyword.refuse("this keyword is not known; take it out if the model is the same without it");
   }
 
@@ -268,14 +288,13 @@ class AbaqusReader {
   }
 
   /// The nodes of a face or an edge; empty where an element has none of this name.
-  /// @param side  "S1", "E1" or, of a whole shell, ""
+  /// @param side  "S1", "E1" or, of a side of a shell, ""
   static std::vector<std::int64_t> part_of(const DeckElement& element, std::string_view side)
   {
     std::vector<std::vector<int>> parts;
-    if (side.empty()) {
-      if (!is_solid(element.shape)) return element.nodes;
-      return {};
-    }
+    const bool is_side = side.empty() || side == "S1" || side == "S2";  // as CalculiX calls them
+    if (is_side && !is_solid(element.shape)) return element.nodes;
+    if (side.empty()) return {};
     if (side[0] == 'S' && is_solid(element.shape))
       parts = solid_faces(element.shape, element.order);
     if (side[0] == 'E' && is_surface(element.shape))
@@ -314,21 +333,22 @@ class AbaqusReader {
       keyword.refuse("has neither *KINEMATIC nor *DISTRIBUTING behind it");
     kind->expect_only(averages ? std::set<std::string>{"WEIGHTING METHOD"}
                                : std::set<std::string>{});
-    check_components(*kind);
     const std::vector<std::int64_t> nodes =
         abaqus_nodes(keyword, {keyword.place, {}}, keyword.parameter("REF NODE"), sets_);
     if (nodes.size() != 1) keyword.refuse("its reference is not one node");
     const std::string group = "surface_" + keyword.parameter("SURFACE");
-    if (std::ranges::find(deck_.groups, group, &DeckGroup::name) == deck_.groups.end())
+    const auto followers = std::ranges::find(deck_.groups, group, &DeckGroup::name);
+    if (followers == deck_.groups.end())
       keyword.refuse(fmt::format("there is no surface \"{}\"", keyword.parameter("SURFACE")));
+    check_components(*kind, !averages && !have_rotations(deck_, followers->nodes));
     deck_.couplings.push_back({.entry = fmt::format("{}: *COUPLING", keyword.place),
                                .reference = nodes.front(),
                                .group = group,
                                .averages = averages});
   }
 
-  /// All six, which need no data line.
-  static void check_components(const Keyword& kind)
+  /// All six, which need no data line; 1 to 3 suffice for nodes of solids, which do not turn.
+  static void check_components(const Keyword& kind, bool is_of_solids)
   {
     std::vector<bool> found(6, kind.rows.empty());
     for (const KeywordRow& row : kind.rows) {
@@ -338,7 +358,8 @@ class AbaqusReader {
       for (std::int64_t c = first; c <= std::min<std::int64_t>(last, 6); ++c)
         found[std::size_t(c) - 1] = true;
     }
-    if (std::ranges::find(found, false) != found.end())
+    const auto end = is_of_solids ? found.begin() + 3 : found.end();
+    if (std::find(found.begin(), end, false) != end)
       kind.refuse("couples not all components 1 to 6; a scene's coupling does");
   }
 
@@ -384,6 +405,7 @@ class AbaqusReader {
   };
   std::unordered_map<std::int64_t, SectionOfSet> section_of_;  ///< by element
   std::unordered_map<std::int64_t, std::size_t> place_of_;     ///< of elements in the deck
+  std::map<std::string, int> left_out_;                        ///< keywords
   std::map<std::string, std::size_t> n_reduced_;               ///< elements by type
 };
 
@@ -506,7 +528,7 @@ class AbaqusDeclarer {
       } else if (part.name == "DENSITY") {
         part.expect_only({});
         material.density = part.real(only_row(part), 0, "the density") * units_.density();
-      } else {
+      } else if (!keywords_without_effect().contains(part.name)) {
         break;
       }
     }

@@ -77,9 +77,9 @@ bool is_wanted(const DeckElement& element, const std::string& group, Content con
                const MeshOptions& options)
 {
   if (element.marks) return false;
-  if (content == Content::solids) return is_solid(element.shape);
-  return is_surface(element.shape) ||
-         (element.shape == Shape::line && has_name(options.line_groups, group));
+  if (element.shape == Shape::line) return has_name(options.line_groups, group);
+  const bool is_of_body = is_solid(element.shape) == (content == Content::solids);
+  return is_of_body || (is_surface(element.shape) && has_name(options.shell_groups, group));
 }
 
 void tell_what_is_left_out(Mesh& mesh, const std::vector<std::array<int, 4>>& n_left_out,
@@ -500,6 +500,16 @@ double orientation(const DeckElement& element,
   }
   for (std::size_t i = 0; i + above < x.size(); ++i) add(2, i, i + above);
   return dot(cross(tangents[0], tangents[1]), tangents[2]);
+}
+
+bool have_rotations(const Deck& deck, const std::vector<std::int64_t>& nodes)
+{
+  const std::set<std::int64_t> all(nodes.begin(), nodes.end());
+  return std::ranges::any_of(deck.elements, [&](const DeckElement& element) {
+    return !is_solid(element.shape) && !element.marks &&
+           std::ranges::any_of(element.nodes,
+                               [&](std::int64_t node) { return all.contains(node); });
+  });
 }
 
 void add_missing_middles(Deck& deck)

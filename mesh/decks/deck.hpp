@@ -70,8 +70,12 @@ int group_index(Deck& deck, const std::string& name, int dimension);
 ///         begins.
 void add_missing_middles(Deck& deck);
 
+/// Whether one of the nodes is of a shell or beam; nodes of solids alone do not turn.
+bool have_rotations(const Deck& deck, const std::vector<std::int64_t>& nodes);
+
 /// Makes the mesh of a deck: its solids, if a section names some of them, or there are some and no
-/// section names anything; else its surfaces, and the lines of `line_groups`. Other elements
+/// section names anything, and the surfaces of `shell_groups`; else all its surfaces; and the lines
+/// of `line_groups`. Other elements
 /// become sets of nodes, and a note says so. If there are tetrahedra or wedges of order 1, all
 /// solids get nodes in the middle of their edges. Nodes without an element are left out, but for
 /// those of `coupled_groups`; quadrilaterals with a flat corner are split (`split_flat_corners`).

@@ -384,10 +384,8 @@ std::string name_of_rigid(const char* kind, const Card& card)
   return fmt::format("{}_{}", kind, card.integer(1, "EID"));
 }
 
-RigidElement rbe2(const Card& card)
+RigidElement rbe2(const Card& card, const Deck& deck)
 {
-  if (card.components(3).size() != 6)
-    card.refuse("holds not all components 123456, as a scene's rigid coupling does");
   RigidElement element{.group = name_of_rigid("rbe2", card),
                        .reference = card.integer(2, "GN"),
                        .nodes = {},
@@ -403,6 +401,15 @@ RigidElement rbe2(const Card& card)
     element.nodes.push_back(card.integer(i, "number of a node"));
   }
   if (element.nodes.empty()) card.refuse("has no nodes that follow");
+  const std::vector<int> held = card.components(3);
+  const bool is_of_solids =
+      held == std::vector<int>{0, 1, 2} && !have_rotations(deck, element.nodes);
+  if (held.size() != 6 && !is_of_solids) {
+    card.refuse(
+        "holds not all components 123456, as a scene's rigid coupling does; 123 suffice for nodes "
+        "of "
+        "solids alone");
+  }
   return element;
 }
 
@@ -641,7 +648,7 @@ std::vector<RigidElement> rigid_elements(std::span<const Card> cards, const Deck
 {
   std::vector<RigidElement> elements;
   for (const Card& card : cards) {
-    if (card.name() == "RBE2") elements.push_back(rbe2(card));
+    if (card.name() == "RBE2") elements.push_back(rbe2(card, deck));
     if (card.name() == "RBE3") elements.push_back(rbe3(card));
     if (card.name() == "RBAR") elements.push_back(rbar(card));
   }

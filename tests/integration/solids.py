@@ -238,7 +238,7 @@ def formats(programs, folder):
                 scene = folder / f"{file}.toml"
                 scene.write_text(OF_A_FILE.format(file=file, body=body, root=root))
                 scenes = [scene]
-                if Path(file).suffix in (".inp", ".bdf", ".cdb"):
+                if file.endswith((f"{ABAQUS_TYPES[shape, order][0]}.inp", "_0.bdf", ".cdb")):
                     scenes.append(folder / f"{file}.imported.toml")
                     run(programs / "chladni", "import", folder / file, "--length-unit", "mm", "--output", scenes[-1])
                 for one in scenes:

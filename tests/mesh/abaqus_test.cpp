@@ -278,6 +278,21 @@ TEST(AbaqusSolids, OfFourNodesGetMiddlesThatAreHeldOnTheSkinAlone)
   EXPECT_NE(mesh.notes.at(0).find("far too stiff"), std::string::npos);
 }
 
+TEST(AbaqusSolids, FollowAKinematicCouplingOfThreeComponents)
+{
+  const std::string coupling =
+      "*Node, nset=Ref\n9, 1., 1., 5.\n*Surface, name=Top\nBody, S2\n"
+      "*Coupling, constraint name=C, ref node=Ref, surface=Top\n*Kinematic\n1, 3\n";
+  const Declarations declared = declared_by_abaqus(cube + solid_section + coupling, 1.0);
+  ASSERT_EQ(declared.couplings.size(), 1U);
+  EXPECT_EQ(declared.couplings[0].kind, CouplingOfDeck::rigid);
+  expect_words(error_in_abaqus(
+                   abaqus_plate +
+                   "*Node, nset=Ref\n9, 1., 1., 5.\n*Surface, name=Top\nPlate, SPOS\n"
+                   "*Coupling, constraint name=C, ref node=Ref, surface=Top\n*Kinematic\n1, 3\n"),
+               {"*KINEMATIC", "not all components"});
+}
+
 TEST(AbaqusSolids, AreLeftOutWhereOnlyShellsHaveSections)
 {
   const std::string both = cube + "*Element, type=S4, elset=Plate\n7, 1, 2, 3, 4\n";
@@ -289,6 +304,9 @@ TEST(AbaqusSolids, AreLeftOutWhereOnlyShellsHaveSections)
   ASSERT_EQ(of_solids.blocks.size(), 1U);
   EXPECT_EQ(of_solids.blocks[0].shape, Shape::hexahedron);
   EXPECT_EQ(find_group(of_solids, "PLATE").nodes.size(), 4U);
+  const Mesh of_both =
+      mesh_of(deck_of_abaqus(both), {.shell_groups = {"PLATE"}, .solid_groups = {"BODY"}});
+  EXPECT_EQ(of_both.blocks.size(), 2U);
 }
 
 /// Gmsh writes the elements of each volume under a name of its own, and its groups as sets of them.
@@ -301,6 +319,21 @@ TEST(AbaqusSolids, MayHaveTheirSectionByASetThatTheDeckGivesNone)
   EXPECT_EQ(mesh.groups[std::size_t(group)].name, "DISC");
   EXPECT_EQ(find_group(mesh, "DISC").dimension, 3);
   EXPECT_EQ(find_group(mesh, "SURFACE1").nodes.size(), 6U);
+}
+
+TEST(AbaqusSolids, MayEndWithACommaAndHaveWhatVibrationsDoNotNeed)
+{
+  const std::string with_comma = cube_nodes + "*Element, type=C3D4, elset=Body\n1, 1, 2, 4, 5,\n";
+  const std::string text = with_comma + "*Orientation, name=O\n1., 0., 0., 0., 1., 0.\n" +
+                           "*Material, name=Steel\n*Expansion\n1e-5,\n*Elastic\n210000., 0.3\n"
+                           "*Conductivity\n50.,\n*Density\n7.85e-9,\n"
+                           "*Solid Section, elset=Body, material=Steel, orientation=O\n"
+                           "*Initial Conditions, type=Temperature\n1, 20.\n";
+  const Deck deck = deck_of_abaqus(text);
+  EXPECT_EQ(deck.elements.size(), 1U);
+  ASSERT_EQ(deck.notes.size(), 4U);
+  expect_words(deck.notes[1], {"1 *EXPANSION", "left out"});
+  EXPECT_GT(declared_by_abaqus(text, 1.0).materials.at(0).density, 0.0);
 }
 
 class RefusedSolid : public ::testing::TestWithParam<Refusal> {};
@@ -328,6 +361,7 @@ const std::vector<Refusal> refused_solids{
     {cube + "*Element, type=C3D8\n2, 4, 3, 31, 32, 8, 7, 33, 34\n*Node\n31, 2., 4., 0.\n"
             "32, 0., 4., 0.\n33, 2., 4., 2.\n34, 0., 4., 2.\n",
      {"line 24: element 1 has a node between 3 and 4", "line 26: element 2 has none"}},
+    {tetrahedron + "*Initial Conditions, type=Stress\n1, 20.\n", {"line 24", "not known"}},
     {cube + "*Element, type=S4, elset=Plate\n7, 1, 2, 3, 4\n" + abaqus_steel +
          "*Solid Section, elset=Plate, material=Steel\n",
      {"*SOLID SECTION", "element 7 of the type S4"}}};

@@ -293,6 +293,19 @@ TEST(NastranSolids, MayLackMiddleNodesAndHaveAProperty)
   expect_words(declared.notes.at(0), {"PSOLID 8", "full integration"});
 }
 
+TEST(NastranSolids, FollowARigidElementOfThreeComponents)
+{
+  const std::string text = nastran_tetrahedron + "CTETRA,1,8,1,2,3,4\nPSOLID,8,9\n" +
+                           "MAT1,9,2.1+5,,.3,7.85-9\nGRID,20,,5.,0.,0.\nRBE2,5,20,123,1,2,3\n";
+  ASSERT_EQ(declared_by_nastran(text, 1e-3).couplings.size(), 1U);
+  try {
+    declared_by_nastran(text + "CTRIA3,2,7,1,2,3\nPSHELL,7,9,1.,9,,9\n", 1e-3);
+    FAIL() << "the nodes of shells turn";
+  } catch (const Error& error) {
+    expect_words(error.what(), {"RBE2 5", "nodes of solids alone"});
+  }
+}
+
 TEST(NastranSolids, BesideShellsAreTakenByTheirSection)
 {
   const std::string text = nastran_tetrahedron + "CTETRA,1,8,1,2,3,4\nCTRIA3,2,7,1,2,3\n";
