@@ -197,11 +197,8 @@ FreeMotions free_motions(const FeModel& fe, const std::vector<int>& held)
   if (left.cols() == 0) return {};
   // The rows that hold these best; a rotation, which may be one about a shell's normal, last.
   MatrixXd by_rows = (R_m * left).transpose();
-  const std::vector<int>& components = fe.system.dofs.components();
-  for (Index i = 0; i < by_rows.cols(); ++i) {
-    const auto place = static_cast<std::size_t>(masters[static_cast<std::size_t>(i)]);
-    if (components[place % components.size()] >= 3) by_rows.col(i) *= 1e-2 * length;
-  }
+  for (Index i = 0; i < by_rows.cols(); ++i)
+    if (fe.attachments.masters[std::size_t(i)].component >= 3) by_rows.col(i) *= 1e-2 * length;
   const Eigen::ColPivHouseholderQR<MatrixXd> pivots(by_rows);
   FreeMotions motions{.S = scale.asDiagonal() * left, .R = {}, .pins = {}};
   motions.R = combined(R, motions.S, R);

@@ -103,8 +103,6 @@ void refuse_beside_solids(const Table& root, const Scene& scene)
     root.table("reduce").refuse("mesh_errors",
                                 "is for shells and beams; compare solids with a finer mesh");
   }
-  if (!scene.stiffening.empty())
-    root.table("reduce").refuse("stiffening", "is for shells and beams; take it out");
 }
 
 /// The scene of the tables; `scene` holds text, path and, where they are known, the groups of the

@@ -60,6 +60,11 @@ MatrixXd stress_stiffness(const LoadedElement& of, const VectorXd& u_e)
                                     model.structure.beams[model.sections.beam[group]], u_e,
                                     line_fields(model.sections.on_surface, of.nodes()));
   }
+  if (mesh::is_solid(block.shape)) {
+    return solid_geometric_stiffness(solid_of_mesh(model.mesh, block, element),
+                                     model.structure.solids[model.sections.solid[group]].material,
+                                     u_e);
+  }
   const ShellSection& section = model.structure.shells[model.sections.shell[group]];
   return shell_geometric_stiffness(
       block.shape, block.order, shell_nodes(model.mesh, block, element, model.directors, section),

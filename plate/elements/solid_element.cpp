@@ -243,12 +243,21 @@ SolidFrame solid_frame(Shape shape, int order, const NodeVectors& nodes)
 
 namespace {
 
+struct LameConstants {
+  double lambda, mu;  ///< Pa
+
+  explicit LameConstants(const Material& material)
+      : lambda(0.0), mu(material.young / (2.0 * (1.0 + material.poisson)))
+  {
+    lambda = 2.0 * mu * material.poisson / (1.0 - 2.0 * material.poisson);
+  }
+};
+
 /// lambda S_ab + mu S_ba + mu (S_xx + S_yy + S_zz) I, S_ab = int N_a N_b^T dV of the derivatives
 /// along a and b; rows of each node in turn.
 MatrixXd stiffness_of(const SolidFrame& frame, const Material& material)
 {
-  const double nu = material.poisson, mu = material.young / (2.0 * (1.0 + nu)),
-               lambda = 2.0 * mu * nu / (1.0 - 2.0 * nu);
+  const auto [lambda, mu] = LameConstants(material);
   const Index n = frame.gradient[0].cols();
   std::array<std::array<MatrixXd, 3>, 3> S;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -301,6 +310,51 @@ ElementMatrices solid_matrices(const SolidFrame& frame, const Material& material
   for (Index c = 0; c < 3; ++c) M(Eigen::seqN(c, n, 3), Eigen::seqN(c, n, 3)) = of_component;
   return {.K = with_rotations(condensed(stiffness_of(frame, material), 3 * n)),
           .M = with_rotations(M)};
+}
+
+namespace {
+
+/// The displacements of nodes and, behind them, of the incompatible modes that follow.
+/// @return [n x 3]
+MatrixXd all_displacements(const SolidFrame& frame, const Material& material, const VectorXd& u_e)
+{
+  const Index n = frame.N.cols(), n_all = frame.gradient[0].cols();
+  MatrixXd u = MatrixXd::Zero(n_all, 3);
+  for (Index i = 0; i < n; ++i) u.row(i) = u_e.segment<3>(6 * i).transpose();
+  if (n_all == n) return u;
+  const MatrixXd K = stiffness_of(frame, material);
+  const Index n_out = 3 * (n_all - n);
+  const VectorXd of_nodes = u.topRows(n).transpose().reshaped();
+  const VectorXd out =
+      K.bottomRightCorner(n_out, n_out).ldlt().solve(-K.bottomLeftCorner(n_out, 3 * n) * of_nodes);
+  u.bottomRows(n_all - n) = out.reshaped(3, n_all - n).transpose();
+  return u;
+}
+
+}  // namespace
+
+MatrixXd solid_geometric_stiffness(const SolidFrame& frame, const Material& material,
+                                   const VectorXd& u_e)
+{
+  const auto [lambda, mu] = LameConstants(material);
+  const Index n = frame.N.cols();
+  const MatrixXd u = all_displacements(frame, material, u_e);
+  std::array<MatrixXd, 3> slopes;  // [n_points x 3] u_b,a
+  for (std::size_t a = 0; a < 3; ++a) slopes[a] = frame.gradient[a] * u;
+  const VectorXd trace = slopes[0].col(0) + slopes[1].col(1) + slopes[2].col(2);
+  MatrixXd along = MatrixXd::Zero(n, n);
+  for (Index a = 0; a < 3; ++a) {
+    for (Index b = 0; b < 3; ++b) {
+      VectorXd sigma = mu * (slopes[std::size_t(a)].col(b) + slopes[std::size_t(b)].col(a));
+      if (a == b) sigma += lambda * trace;
+      along += frame.gradient[std::size_t(a)].leftCols(n).transpose() *
+               frame.dV.cwiseProduct(sigma).asDiagonal() *
+               frame.gradient[std::size_t(b)].leftCols(n);
+    }
+  }
+  MatrixXd K = MatrixXd::Zero(6 * n, 6 * n);
+  for (Index c = 0; c < 3; ++c) K(Eigen::seqN(c, n, 6), Eigen::seqN(c, n, 6)) = along;
+  return K;
 }
 
 MassPoints solid_mass_points(const SolidFrame& frame, double density)

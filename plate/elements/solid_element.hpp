@@ -43,6 +43,15 @@ ElementMatrices solid_matrices(const SolidFrame& frame, const Material& material
 /// The integration points of M_e.
 MassPoints solid_mass_points(const SolidFrame& frame, double density);
 
+/// K_sigma by the stresses sigma of the static displacements u_e,
+///   v^T K_sigma v = int sigma_ab v_,a . v_,b dV.
+/// The stresses of hexahedra of order 1 are with their incompatible modes, v is without.
+/// @param u_e  [6 n_nodes] m, with rotations that have no effect
+/// @return [6 n_nodes squared] symmetric, N/m
+/// Source: Zienkiewicz and Taylor, The Finite Element Method 2 (2000), initial stress matrix.
+Eigen::MatrixXd solid_geometric_stiffness(const SolidFrame& frame, const Material& material,
+                                          const Eigen::VectorXd& u_e);
+
 /// Points of a face of a solid, (r, s) in [-1, 1]^2 or of a triangle, and the shape functions of
 /// its nodes (mesh::solid_faces) there.
 struct FaceRule {

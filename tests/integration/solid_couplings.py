@@ -329,6 +329,12 @@ def reductions(programs, folder, mpirun):
         print(f"disc with a hub, {method}: {error:.1e} from the model, {found[0]['n_rigid']} rigid motions")
         if found[0]["n_rigid"] != 4 or not error < (1e-1 if method == "guyan" else 1e-3):
             yield f"{method}: {found[0]['n_rigid']} rigid motions, {elastic[:6]} Hz, not {exact[:6]}"
+    spring = '[[spring]]\nat = "hub"\nstiffness = { rx = 2e4, z = 1e6 }\n'
+    spinning = changed(scene, (spring, ""), ("METHOD", 'method = "guyan"\nstiffening = ["spin"]'))
+    for fixed in "", 'fixed = ["hub"]\n':  # a free one holds itself by its inertia
+        (folder / "scene.toml").write_text(changed(spinning, ("[body]\n", "[body]\n" + fixed)))
+        run(programs / "chladni", "run", folder / "scene.toml", "--output", folder / f"spin{len(fixed)}",
+            mpirun=mpirun, ranks=3)  # fmt: skip
     info = run(programs / "chladni", "info", folder / "guyan1/disc.body.h5")
     mass = 6300.0 * math.pi * (0.162**2 - 0.025**2) * 0.02 + 2.0
     told = [float(line.split()[1]) for line in info.splitlines() if line.startswith("mass ")]
