@@ -693,15 +693,18 @@ std::map<int, Diameters> diameters_in_band(const Disc& disc, const DiscRing& rin
       (ring.W.cosine.cwiseAbs2() + ring.W.sine.cwiseAbs2()).colwise().sum().transpose();
   const double limit = still_limit * still_limit * (motion.size() > 0 ? motion.maxCoeff() : 0.0);
   const double end = std::min(range_of(body), end_of_known(disc, body));
-  const bool looks_at_picture = !has_slopes(body, ring.name) && has_picture(body);
+  const bool is_drawn = has_picture(body), has_own_slopes = has_slopes(body, ring.name);
   std::map<int, Diameters> found;
   for (std::size_t column = 0; column < disc.mode_numbers.size(); ++column) {
     const int i = disc.mode_numbers[column] - 1;
     auto diameters = diameters_on(ring, Eigen::Index(column), limit);
     if (!diameters || !is_in_band(body, i, end)) continue;
-    if (looks_at_picture) {
-      diameters->told =
-          told_by_picture(plane_of(body.picture, i, ring), diameters->seen, ring.n_nodes);
+    if (is_drawn && (!has_own_slopes || diameters->told != diameters->seen)) {
+      const mbs_export::Picture plane = plane_of(body.picture, i, ring);
+      if (!has_own_slopes)
+        diameters->told = told_by_picture(plane, diameters->seen, ring.n_nodes);
+      else if (share_of(plane, diameters->seen) > share_of(plane, diameters->told))
+        diameters->told = diameters->seen;  // a rib turns the nodes
     }
     found.emplace(i, *diameters);
   }

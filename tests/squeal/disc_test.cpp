@@ -253,5 +253,30 @@ TEST(Aliases, AreNoneWhereANodeDoesNotRotate)
   EXPECT_EQ(alias_in(with_nodes(body, 10)), "");
 }
 
+/// Pairs of 3 and 4 diameters, with the motion of 12 circles of 48 points.
+mbs_export::ModalBody pictured_pairs()
+{
+  mbs_export::ModalBody body = analytic_body({kirchhoff_3(), kirchhoff_4()});
+  body.picture.positions.resize(12 * 48, 3);
+  body.picture.transformation = Eigen::MatrixXd::Zero(3 * 12 * 48, 4);
+  for (Eigen::Index at = 0; at < 12 * 48; ++at) {
+    const double r = 0.05 + 0.01 * double(at / 48), theta = 2.0 * pi * double(at % 48) / 48.0;
+    body.picture.positions.row(at) << r * std::cos(theta), r * std::sin(theta),
+        body.rings[0].height;
+    body.picture.transformation.row(3 * at + 2) << std::cos(3.0 * theta), std::sin(3.0 * theta),
+        std::cos(4.0 * theta), std::sin(4.0 * theta);
+  }
+  return body;
+}
+
+TEST(Aliases, AreNoneWhereARibTurnsTheNodesOfTheRing)
+{
+  auto body = with_nodes(pictured_pairs(), 10);
+  body.rings[0].W_t.rightCols(2) *= 3.5;  // as 14 diameters have them
+  EXPECT_EQ(alias_in(body), "");
+  body.picture = {};
+  EXPECT_NE(alias_in(body).find("of 14 nodal diameters looks like one of 4"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace chladni::squeal
