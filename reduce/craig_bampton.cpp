@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "common/petsc.hpp"
+#include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/forms.hpp"
-#include "linear/kernels/gather.hpp"
-#include "linear/kernels/orthonormalisation.hpp"
 #include "linear/kernels/small_matrices.hpp"
+#include "linear/kernels/sparse_matrices.hpp"
 
 namespace chladni::reduce {
 
@@ -19,20 +19,42 @@ using Eigen::MatrixXd;
 
 namespace {
 
+/// sum_k M_kk Psi_kj^2 of some columns.
+std::vector<double> terms_of_slaves(Mat Psi, Mat M_ss, const std::vector<double>& is_asked)
+{
+  const linear::LocalRows psi(Psi);
+  const petsc::Vector diagonal = linear::diagonal(M_ss);
+  const PetscScalar* m = nullptr;
+  petsc::check(VecGetArrayRead(diagonal, &m));
+  std::vector<double> terms(is_asked.size(), 0.0);
+  for (PetscInt j = 0; j < psi.n_cols(); ++j) {
+    if (is_asked[std::size_t(j)] == 0.0) continue;
+    for (PetscInt k = 0; k < psi.n_rows(); ++k)
+      terms[std::size_t(j)] += m[k] * psi(k, j) * psi(k, j);
+  }
+  petsc::check(VecRestoreArrayRead(diagonal, &m));
+  MPI_Allreduce(MPI_IN_PLACE, terms.data(), int(terms.size()), MPI_DOUBLE, MPI_SUM,
+                petsc::communicator(Psi));
+  return terms;
+}
+
 /// Rows of masters without mass hold the round-off of their terms, which may be negative: they
 /// become zero.
 void clear_round_off(MatrixXd& M_G, const MatrixXd& M_mm, Mat Psi, const Blocks& M)
 {
   constexpr double suspicious = 1e-10, round_off = 64.0 * std::numeric_limits<double>::epsilon();
-  if (M_G.rows() == 0) return;
-  const double least = (M_G.diagonal().array() / M_mm.diagonal().array().max(1e-300)).minCoeff();
-  const double of_largest = M_G.diagonal().minCoeff() / M_G.diagonal().maxCoeff();
-  const bool is_clear = least > suspicious && of_largest > suspicious;
-  if (linear::value_of_first_rank(is_clear ? 1.0 : 0.0, petsc::communicator(Psi)) == 1.0) return;
-  const std::vector<double> of_slaves = linear::diagonal_terms(Psi, M.ss);
+  const double largest = M_G.rows() > 0 ? M_G.diagonal().maxCoeff() : 0.0;
+  std::vector<double> is_asked;
+  for (Eigen::Index i = 0; i < M_G.rows(); ++i) {
+    const bool is_clear = M_G(i, i) > suspicious * M_mm(i, i) && M_G(i, i) > suspicious * largest;
+    is_asked.push_back(is_clear ? 0.0 : 1.0);
+  }
+  linear::broadcast_numbers(is_asked, petsc::communicator(Psi));
+  if (std::ranges::count(is_asked, 1.0) == 0) return;
+  const std::vector<double> of_slaves = terms_of_slaves(Psi, M.ss, is_asked);
   for (Eigen::Index i = 0; i < M_G.rows(); ++i) {
     const double terms = M_mm(i, i) + of_slaves[std::size_t(i)];
-    if (std::abs(M_G(i, i)) > round_off * terms) continue;
+    if (is_asked[std::size_t(i)] == 0.0 || std::abs(M_G(i, i)) > round_off * terms) continue;
     M_G.row(i).setZero();
     M_G.col(i).setZero();
   }
