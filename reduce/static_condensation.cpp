@@ -293,8 +293,9 @@ MatrixXd unresisted_by_both(const MatrixXd& E, const MatrixXd& mass, double slow
 }
 
 /// Where every rank says so or none.
-/// @param Y, N, energies  of the soft motions, in coordinates of the first eigenvectors of K_G
-/// @param T               the soft motions at the masters; the first r are those without energy
+/// @param of           the soft motions, in coordinates of the first eigenvectors of K_G
+/// @param N, energies  Gram matrix of the rows' energies and energies of these eigenvectors
+/// @param T            the soft motions at the masters; those without energy come first
 void refuse_massless(const Combinations& of, const MatrixXd& N, const std::vector<double>& energies,
                      const MatrixXd& T, Mat Psi, const Blocks& K, const Blocks& M)
 {
