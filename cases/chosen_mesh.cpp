@@ -16,6 +16,7 @@
 #include "linear/solver_options.hpp"
 #include "plate/dofs/dof_map.hpp"
 #include "report/progress.hpp"
+#include "scene/keys.hpp"
 #include "scene/scene.hpp"
 
 namespace chladni::cases {
@@ -25,8 +26,9 @@ namespace {
 /// The share of an accuracy that the mesh may use; the rest is for the reduction.
 constexpr double share_of_mesh = 0.9;
 
-/// The least accuracy, of two digits, that a mesh with this error keeps.
-double possible_error(double error_of_mesh);
+/// " or ask for ..." with the least accuracy, of two digits, that a mesh with this error keeps;
+/// nothing where no scene may ask for so little.
+std::string or_ask_for_less(double error_of_mesh);
 
 /// A mesh that keeps the accuracy of a scene.
 struct FoundMesh {
@@ -123,10 +125,9 @@ class Search {
     const auto [reached, allowed] = told_apart(trial.error, target_);
     throw Error(fmt::format(
         "{}: accuracy.error = {:.6g} up to {:.6g} Hz: the mesh may have {} of it, and the best one "
-        "that was tried, {}, has an error of {}; ask for {:.2g} or more, or choose the mesh "
-        "yourself",
+        "that was tried, {}, has an error of {}; choose the mesh yourself{}",
         scene_.path, scene_.accuracy->error, scene_.accuracy->up_to_Hz, allowed,
-        described(trial.size), reached, possible_error(trial.error)));
+        described(trial.size), reached, or_ask_for_less(trial.error)));
   }
 
  private:
@@ -284,11 +285,12 @@ class Search {
   double error_of_first_ = 0.0;
 };
 
-double possible_error(double error_of_mesh)
+std::string or_ask_for_less(double error_of_mesh)
 {
   const double least = error_of_mesh / share_of_mesh;
   const double last_digit = std::pow(10.0, std::floor(std::log10(least)) - 1.0);
-  return std::ceil(least / last_digit) * last_digit;
+  const double possible = std::ceil(least / last_digit) * last_digit;
+  return possible <= scene::accuracy_error_max ? fmt::format(", or ask for {:.2g}", possible) : "";
 }
 
 /// Searches the cheapest mesh that keeps the accuracy.
@@ -343,9 +345,9 @@ MeshChoice own_mesh(const scene::Scene& supported, const scene::Scene& scene,
     const auto [reached, allowed] = told_apart(error, share_of_mesh * scene.accuracy->error);
     throw Error(fmt::format(
         "{}: accuracy.error = {:.6g}: the mesh may have {} of it, and that of {} has an error of "
-        "{} up to {:.6g} Hz; its size cannot be chosen: give a finer one, or ask for {:.2g}",
+        "{} up to {:.6g} Hz; its size cannot be chosen: give a finer one{}",
         scene.path, scene.accuracy->error, allowed, *scene.mesh.file, reached,
-        scene.accuracy->up_to_Hz, possible_error(error)));
+        scene.accuracy->up_to_Hz, or_ask_for_less(error)));
   }
   return choice;
 }

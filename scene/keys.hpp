@@ -8,6 +8,9 @@
 
 namespace chladni::scene {
 
+/// The least accuracy that a scene may ask for.
+inline constexpr double accuracy_error_max = 0.1;
+
 /// The numbers that a key accepts; never infinite or NaN.
 struct Admissible {
   double above = -std::numeric_limits<double>::infinity();     ///< exclusive

@@ -18,7 +18,7 @@ constexpr Key mesh_rows[] = {
      "required",
      "of each natural frequency of the body under `body.fixed`, relative, of mesh and reduction "
      "together",
-     {.at_least = 1e-6, .at_most = 0.1}},
+     {.at_least = 1e-6, .at_most = accuracy_error_max}},
     {"accuracy.up_to_Hz",
      number,
      "required",

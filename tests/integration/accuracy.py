@@ -7,6 +7,8 @@ that cannot be refined is refused with the error that it has.
 Usage: accuracy.py PROGRAM_DIR
 """
 
+import math
+import re
 import sys
 import tempfile
 from pathlib import Path
@@ -109,20 +111,32 @@ def check(name, found, exact, error, n_dofs):
 
 
 def refuses_mesh_file(programs, folder):
-    """A .msh keeps its size: what it has is said."""
-    nodes = [(x, y) for y in (0, 0.1, 0.2) for x in (0, 0.1, 0.2, 0.3)]
-    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "1", '2 1 "plate"', "$EndPhysicalNames",
-             "$Nodes", str(len(nodes))]
-    lines += [f"{i + 1} {x} {y} 0" for i, (x, y) in enumerate(nodes)] + ["$EndNodes", "$Elements", "6"]
-    corners = [4 * j + i + 1 for j in range(2) for i in range(3)]
-    lines += [f"{k + 1} 3 2 1 1 {c} {c + 1} {c + 5} {c + 4}" for k, c in enumerate(corners)] + ["$EndElements", ""]
-    (folder / "plate.msh").write_text("\n".join(lines))
-    (folder / "scene.toml").write_text(
-        f'accuracy = {{ error = 1e-3, up_to_Hz = {UP_TO_HZ} }}\n[mesh]\nfile = "plate.msh"\n{IRON}'
-        f'{shell("plate", 0.006)}\n[modes]\ncount = 10\n')
-    said = run(programs / "chladni", "modes", folder / "scene.toml", "--output", folder, code=1)
-    print(said.strip())
-    return "plate.msh has an error of" in said
+    """A .msh keeps its size: what it has is said, and what may be asked for."""
+    def said_to(error, n, code):
+        """Of n by n elements of order 1."""
+        across = range(n + 1)
+        nodes = [(0.3 * i / n, 0.2 * j / n) for j in across for i in across]
+        corners = [(n + 1) * j + i + 1 for j in range(n) for i in range(n)]
+        lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "1", '2 1 "plate"', "$EndPhysicalNames",
+                 "$Nodes", str(len(nodes)), *(f"{k + 1} {x} {y} 0" for k, (x, y) in enumerate(nodes)), "$EndNodes",
+                 "$Elements", str(n * n),
+                 *(f"{k + 1} 3 2 1 1 {c} {c + 1} {c + n + 2} {c + n + 1}" for k, c in enumerate(corners)),
+                 "$EndElements", ""]  # fmt: skip
+        (folder / "plate.msh").write_text("\n".join(lines))
+        (folder / "scene.toml").write_text(
+            f'accuracy = {{ error = {error!r}, up_to_Hz = {UP_TO_HZ} }}\n[mesh]\nfile = "plate.msh"\n{IRON}'
+            f'{shell("plate", 0.006)}\n[modes]\ncount = 10\n')
+        return run(programs / "chladni", "modes", folder / "scene.toml", "--output", folder, "--overwrite", code=code)
+
+    coarse, fine = said_to(1e-3, 3, 1), said_to(1e-3, 24, 1)
+    print(coarse.strip(), fine.strip(), sep="\n")
+    refusal = r"may have (\S+) of it, and that of \S+plate.msh has an error of (\S+) up to"
+    assert re.search(refusal, coarse) and "or ask for" not in coarse, "no scene may ask for so little"
+    # The accuracy that it names is kept; a unit of its last digit less is refused, with two numbers that differ.
+    possible = float(re.search(r"or ask for (\S+)", fine)[1])
+    said_to(possible, 24, 0)
+    again = re.search(refusal, said_to(possible - 10.0 ** (math.floor(math.log10(possible)) - 1), 24, 1))
+    return float(again[2]) > float(again[1])
 
 
 BODY = """

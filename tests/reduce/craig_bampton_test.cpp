@@ -129,6 +129,20 @@ TEST(FixedInterfaceModes, AreTheSameByKrylovSchur)
     EXPECT_NEAR(single.omega[k], blocks.omega[k], 1e-11);  // both to round-off of cond(K) eps
 }
 
+TEST(FixedInterfaceModes, AreRefusedBelowACutoffThatIsToldApartFromTheFirst)
+{
+  const Reduction r;
+  const auto below = [&](double factor) {
+    const double cutoff_Hz = factor * fixed_chain_frequency(1) / (2.0 * std::numbers::pi);
+    return testing::refused_numbers(
+        [&] { fixed_interface_modes(r.K_ss, r.M.ss, {.cutoff_Hz = cutoff_Hz}); });
+  };
+  const std::vector<std::string> numbers = below(1.0 - 1e-8);
+  ASSERT_EQ(numbers.size(), 2u);
+  EXPECT_LT(std::stod(numbers[0]), std::stod(numbers[1]));
+  EXPECT_TRUE(below(1.0 + 1e-8).empty());
+}
+
 TEST(FixedInterfaceModes, BelowACutoffAreAllThereAre)
 {
   const Reduction r;

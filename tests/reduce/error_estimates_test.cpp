@@ -265,6 +265,30 @@ TEST(ToleranceSearch, TakesTheFirstNumberOfModesThatKeepsTheTolerance)
     EXPECT_LT(std::sqrt(1.0 + true_error(pairs, k)) - 1.0, tolerance) << k;
 }
 
+/// All modes of the slaves leave round-off: what it is stands beside what was asked, and can be
+/// asked for.
+TEST(ToleranceSearch, TellsWhatAllModesReach)
+{
+  const HeldChain held(1);
+  const auto all_to = [&](double tolerance) {
+    return testing::refused_numbers([&] {
+      ToleranceSearch search({.K_ss = held.K_ss, .Psi = held.Q_CB.Psi, .K = held.K, .M = held.M},
+                             {.tolerance = tolerance, .up_to_Hz = 1.001 * frequency_Hz(6)},
+                             [](const ReducedModel& model) { return lowest(model, 6); });
+      do {
+        search.find_modes();
+      } while (!search.is_enough());
+    });
+  };
+  const std::vector<std::string> numbers = all_to(1e-30);
+  ASSERT_EQ(numbers.size(), 2u);
+  const double reached = std::stod(numbers[0]);
+  EXPECT_LT(reached, 1e-9);
+  const std::vector<std::string> at_the_edge = all_to(reached * (1.0 - 1e-3));
+  EXPECT_TRUE(at_the_edge.size() == 2 && at_the_edge[0] != at_the_edge[1]);
+  EXPECT_TRUE(all_to(1.1 * reached).empty());
+}
+
 /// Modes that the search takes for a tolerance of 0.1 where row 0 is the master.
 /// @param end  of the range, rad^2/s^2
 std::size_t n_modes_to_a_tenth(const linear::testing::Chain& pencil, double end)

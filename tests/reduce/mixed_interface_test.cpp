@@ -62,6 +62,24 @@ TEST(MixedInterfaceModes, BeginWithTheRigidMotion)
     EXPECT_NEAR(std::pow(reduced.free.omega[k], 2) / exact_of_chains(k), 1.0, 1e-9);
 }
 
+TEST(MixedInterfaceModes, AreRefusedBelowACutoffThatIsToldApartFromTheFirst)
+{
+  // The two masters of a held chain are 0 and 23, and 0 alone is held: no rigid motion.
+  const ReducedChain reduced;
+  const std::vector<int> held{0};
+  const auto below = [&](double factor) {
+    const double first = 2.0 * std::sin(0.5 * std::numbers::pi / (2 * n_of_mixed_chain - 1));
+    const double cutoff_Hz = factor * first / (2.0 * std::numbers::pi);
+    return testing::refused_numbers([&] {
+      mixed_interface_modes(reduced.body, reduced.Q.Psi, {.cutoff_Hz = cutoff_Hz}, held);
+    });
+  };
+  const std::vector<std::string> numbers = below(1.0 - 1e-8);
+  ASSERT_EQ(numbers.size(), 2u);
+  EXPECT_LT(std::stod(numbers[0]), std::stod(numbers[1]));
+  EXPECT_TRUE(below(1.0 + 1e-8).empty());
+}
+
 TEST(Rubin, KeepsTheModesThatItIsMadeOf)
 {
   ReducedChain reduced;

@@ -3,8 +3,11 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
+#include <regex>
+#include <string>
 #include <vector>
 
+#include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "tests/linear/chain.hpp"
@@ -162,6 +165,24 @@ inline Eigen::VectorXd exact_eigenvalues(const linear::testing::Chain& pencil)
   return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(whole(pencil.K), whole(pencil.M),
                                                                    Eigen::EigenvaluesOnly)
       .eigenvalues();
+}
+
+/// The numbers with a point or an exponent in the error of a statement, as they are printed: none
+/// where it is accepted.
+template <class Statement>
+std::vector<std::string> refused_numbers(Statement statement)
+{
+  try {
+    statement();
+  } catch (const Error& error) {
+    static const std::regex number(R"([0-9]+(\.[0-9]+)?e[-+][0-9]+|[0-9]+\.[0-9]+)");
+    const std::string said = error.what();
+    const std::sregex_iterator begin(said.begin(), said.end(), number), end;
+    std::vector<std::string> numbers;
+    for (auto at = begin; at != end; ++at) numbers.push_back(at->str());
+    return numbers;
+  }
+  return {};
 }
 
 }  // namespace chladni::reduce::testing
