@@ -15,7 +15,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "tests/tools"))
-from compile_times import processor_seconds, table  # noqa: E402
+from compile_times import machine, processor_seconds, table  # noqa: E402
 SHOWN = 14  # last lines of each output
 OF_DEV = re.compile(r"OMPI_|OPENBLAS_|OMP_|CCACHE_|PYTHONDONTWRITEBYTECODE")
 
@@ -43,10 +43,9 @@ def exported(command, folder, environment):
 def facts(load):
     """Of the machine as it is now, with the load that it had before."""
     model = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
-    memory = re.search(r"MemTotal:\s*(\d+)", Path("/proc/meminfo").read_text())
     compiler = subprocess.run("g++ --version", shell=True, capture_output=True, text=True).stdout.splitlines()
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout
-    return [f"- machine: {model[1] if model else 'unknown'}, {os.cpu_count()} cores, {int(memory[1]) / 2**20:.0f} GiB",
+    return [f"- machine: {model[1] if model else 'unknown'}, {machine()}",
             f"- load before: {load:.1f} processes besides", f"- {compiler[0] if compiler else 'no compiler yet'}",
             f"- commit {commit.strip()}, {time.strftime('%Y-%m-%d')}"]  # fmt: skip
 

@@ -19,7 +19,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "tests/tools"))
-from compile_times import processor_seconds, table  # noqa: E402
+from compile_times import machine, processor_seconds, table  # noqa: E402
 MIRROR = "http://deb.debian.org/debian"
 MOUNTED = ("proc", "sys", "dev")
 PACKAGES = ("g++", "cmake", "libpetsc-real-dev", "libslepc-real-dev", "libmumps-dev", "libgmsh-dev", "libhdf5-dev",
@@ -168,7 +168,7 @@ def section(suite, folder, page, commands):
     debian = (folder / "etc/debian_version").read_text().strip()
     found = ["| package | version |", "| --- | --- |", *(f"| {name} | {version} |" for name, version in versions(folder).items())]
     return code, [f"## {suite}", "",
-                  f"Debian {debian}, {os.cpu_count()} cores.", "", *found, "",
+                  f"Debian {debian}, {machine()}.", "", *found, "",
                   *lines]  # fmt: skip
 
 
