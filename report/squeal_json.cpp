@@ -1,10 +1,14 @@
 #include "report/describe_squeal.hpp"
 
+#include <algorithm>
 #include <complex>
 #include <optional>
+#include <string>
+#include <type_traits>
 #include <utility>
 
 #include "report/json.hpp"
+#include "squeal/results/result_fields.hpp"
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/stability/stability_search.hpp"
 #include "squeal/transient/transient.hpp"
@@ -12,6 +16,38 @@
 namespace chladni::report {
 
 namespace {
+
+/// "pad_velocity_m_s" of the name and the unit of a field.
+std::string key_of(const std::string& name, std::string unit)
+{
+  if (unit.empty() || unit == "1" || unit == "own") return name;
+  std::ranges::replace(unit, '/', '_');
+  return name + '_' + unit;
+}
+
+/// All that a file stores of a struct; null what is absent or empty, and 0 or 1 what is so or not.
+template <class T>
+Json stored_json(const T& x)
+{
+  if constexpr (files::Stored<T>) {
+    std::vector<Json::Member> members;
+    files::for_each_field<T>([&](const auto& field) {
+      members.emplace_back(*field.key ? field.key : key_of(field.name, field.unit),
+                           stored_json(x.*field.member));
+    });
+    return Json::object(members);
+  } else if constexpr (std::is_same_v<T, std::optional<double>>) {
+    return optional_json(x);
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return x.empty() ? Json() : Json(x);
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    return double(x);
+  } else {
+    std::vector<Json> elements;
+    for (const auto& element : x) elements.push_back(stored_json(element));
+    return Json::array(elements);
+  }
+}
 
 Json eigenvalues_json(const squeal::EigenvalueMap& map)
 {
@@ -50,66 +86,28 @@ Json limit_cycle_json(const squeal::LimitCycle& cycle)
                        {"settled", cycle.settled ? 1 : 0}});
 }
 
-Json statistics_json(const squeal::MotionStatistics& statistics)
-{
-  std::vector<Json> lines, rms;
-  for (const squeal::MotionStatistics::Line& line : statistics.lines) {
-    lines.push_back(Json::object({{"frequency_Hz", line.frequency_Hz},
-                                  {"amplitude_m_s", line.amplitude},
-                                  {"rotations", line.rotations}}));
-  }
-  for (const double value : statistics.rms_over_angle) rms.push_back(value);
-  return Json::object({{"speed_rad_s", statistics.speed},
-                       {"from_s", statistics.from},
-                       {"n_rotations", double(statistics.n_rotations)},
-                       {"band_Hz", statistics.band_Hz},
-                       {"rms_velocity_m_s", statistics.rms_velocity},
-                       {"peak_velocity_m_s", statistics.peak_velocity},
-                       {"rms_displacement_m", statistics.rms_displacement},
-                       {"peak_displacement_m", statistics.peak_displacement},
-                       {"N_min_N", statistics.N_min},
-                       {"N_max_N", statistics.N_max},
-                       {"open", statistics.open},
-                       {"drift", statistics.drift},
-                       {"settled", statistics.settled ? 1 : 0},
-                       {"modulation", statistics.modulation},
-                       {"rms_velocity_over_angle_m_s", Json::array(rms)},
-                       {"lines", Json::array(lines)}});
-}
-
-/// Its errors as they are told of other results, and that of the integration.
-Json cycle_error_json(const squeal::ErrorBudget& budget)
-{
-  return Json::object({{"mesh", optional_json(budget.mesh)},
-                       {"reduction", optional_json(budget.reduction)},
-                       {"body", optional_json(budget.body)},
-                       {"modes_left_out", optional_json(budget.left_out)},
-                       {"integration", optional_json(budget.integration)}});
-}
-
 Json direct_json(const squeal::DirectLimitCycle& cycle)
 {
   const squeal::CycleStability stability = squeal::stability_of(cycle);
   std::vector<Json> multipliers;
   for (const std::complex<double>& value : cycle.multipliers)
     multipliers.push_back(Json::array({value.real(), value.imag()}));
-  return Json::object(
-      {{"speed_rad_s", cycle.speed},
-       {"frequency_Hz", cycle.frequency_Hz},
-       {"pad_velocity_m_s", cycle.pad_velocity},
-       {"pad_displacement_m", cycle.pad_displacement},
-       {"friction_work_J", cycle.energy.friction.sum()},
-       {"normal_work_J", cycle.energy.normal.sum()},
-       {"damping_work_J", cycle.energy.damping},
-       {"frequency_errors_Hz", cycle_error_json(cycle.errors.frequency_Hz)},
-       {"pad_velocity_errors_m_s", cycle_error_json(cycle.errors.pad_velocity)},
-       {"pad_displacement_errors_m", cycle_error_json(cycle.errors.pad_displacement)},
-       {"stable", stability == squeal::CycleStability::stable ? 1 : 0},
-       {"stability", squeal::name_of(stability)},
-       {"multipliers", Json::array(multipliers)},
-       {"multiplier_error", optional_json(cycle.multiplier_error)},
-       {"n_contact_evaluations", double(cycle.n_contact_evaluations)},
-       {"way", cycle.way.empty() ? Json() : Json(cycle.way)}});
+  return Json::object({{"speed_rad_s", cycle.speed},
+                       {"frequency_Hz", cycle.frequency_Hz},
+                       {"pad_velocity_m_s", cycle.pad_velocity},
+                       {"pad_displacement_m", cycle.pad_displacement},
+                       {"friction_work_J", cycle.energy.friction.sum()},
+                       {"normal_work_J", cycle.energy.normal.sum()},
+                       {"damping_work_J", cycle.energy.damping},
+                       {"frequency_errors_Hz", stored_json(cycle.errors.frequency_Hz)},
+                       {"pad_velocity_errors_m_s", stored_json(cycle.errors.pad_velocity)},
+                       {"pad_displacement_errors_m", stored_json(cycle.errors.pad_displacement)},
+                       {"stable", stability == squeal::CycleStability::stable ? 1 : 0},
+                       {"stability", squeal::name_of(stability)},
+                       {"multipliers", Json::array(multipliers)},
+                       {"multiplier_error", optional_json(cycle.multiplier_error)},
+                       {"n_contact_evaluations", double(cycle.n_contact_evaluations)},
+                       {"way", cycle.way.empty() ? Json() : Json(cycle.way)}});
 }
 
 Json branch_point_json(const squeal::BranchPoint& point)
@@ -229,32 +227,6 @@ Json peaks_json(const squeal::Spectrum& spectrum)
   return Json::array(peaks);
 }
 
-Json sensitivity_json(const squeal::ModeSensitivity& sensitivity)
-{
-  std::vector<Json> subsets, modes;
-  for (const squeal::ModeSubset& subset : sensitivity.subsets) {
-    subsets.push_back(
-        Json::object({{"n_modes", double(subset.n_modes)},
-                      {"highest_Hz", subset.highest_Hz},
-                      {"critical_speed_rad_s", optional_json(subset.critical_speed)},
-                      {"critical_frequency_Hz", optional_json(subset.critical_frequency_Hz)},
-                      {"growth_1_s", subset.growth},
-                      {"stability", subset.stability.empty() ? Json() : Json(subset.stability)}}));
-  }
-  for (const squeal::ModeInfluence& mode : sensitivity.influences) {
-    modes.push_back(Json::object(
-        {{"frequency_Hz", mode.frequency_Hz},
-         {"nodal_diameters", double(mode.nodal_diameters)},
-         {"participation", mode.participation},
-         {"growth_without_1_s", optional_json(mode.growth_without)},
-         {"critical_speed_without_rad_s", optional_json(mode.critical_speed_without)}}));
-  }
-  return Json::object({{"critical_speed_rad_s", sensitivity.critical_speed},
-                       {"critical_frequency_Hz", sensitivity.critical_frequency_Hz},
-                       {"subsets", Json::array(subsets)},
-                       {"modes", Json::array(modes)}});
-}
-
 }  // namespace
 
 std::vector<Json::Member> results_json(const squeal::SquealResults& results)
@@ -284,7 +256,7 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
     members.emplace_back("critical_values", critical_values_json(results.critical_values));
   if (results.spectrum) members.emplace_back("spectrum_peaks", peaks_json(*results.spectrum));
   if (results.mode_sensitivity)
-    members.emplace_back("mode_sensitivity", sensitivity_json(*results.mode_sensitivity));
+    members.emplace_back("mode_sensitivity", stored_json(*results.mode_sensitivity));
   if (results.gradients) members.emplace_back("gradients", gradients_json(*results.gradients));
   if (!results.growth.empty()) members.emplace_back("growth", growth_json(results.growth));
   if (results.transient) {
@@ -295,7 +267,7 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
     members.emplace_back("transient_warning", warning.empty() ? Json() : Json(warning));
   }
   if (results.motion_statistics)
-    members.emplace_back("motion_statistics", statistics_json(*results.motion_statistics));
+    members.emplace_back("motion_statistics", stored_json(*results.motion_statistics));
   if (results.limit_cycle)
     members.emplace_back("limit_cycle", limit_cycle_json(*results.limit_cycle));
   if (results.limit_cycle_direct)

@@ -5,14 +5,22 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <span>
-#include <utility>
 
 #include "common/error.hpp"
 #include "mbs_export/files/body_files.hpp"
-#include "squeal/results/file_checks.hpp"
+#include "squeal/results/result_fields.hpp"
 
 namespace chladni::squeal {
+
+constexpr auto fields_of(std::type_identity<Radiation>)
+{
+  using T = Radiation;
+  return std::tuple{
+      Field{"mode_numbers", "1", &T::mode_numbers, "n", Presence::always, &check_modes},
+      Field{"frequencies", "rad/s", &T::omega, "n"}, Field{"evaluated_at", "rad/s", &T::at, "n"},
+      Field{"damping", "1/s", &T::damping, "n"}, Field{"added_mass", "1", &T::added_mass, "n"}};
+}
+
 namespace {
 
 constexpr const char* radiation_format = "chladni-radiation";
@@ -49,11 +57,7 @@ void write_radiation(const std::filesystem::path& file, const Radiation& radiati
   writer.attribute("/", "format", radiation_format);
   writer.attribute("/", "version", radiation_version);
   writer.attribute("/", "title", title);
-  writer.write("mode_numbers", std::span<const int>(radiation.mode_numbers), "1");
-  writer.write("frequencies", radiation.omega, "rad/s");
-  writer.write("evaluated_at", radiation.at, "rad/s");
-  writer.write("damping", radiation.damping, "1/s");
-  writer.write("added_mass", radiation.added_mass, "1");
+  files::write_fields(writer, "", radiation);
   mbs_export::file_parts::write_provenance(writer, provenance);
   writer.commit();
 }
@@ -66,13 +70,7 @@ Radiation read_radiation(const std::filesystem::path& file)
 Radiation read_radiation(const files::Reader& reader)
 {
   reader.expect_format(radiation_format, radiation_version);
-  std::vector<int> numbers = read_mode_numbers(reader, "mode_numbers");
-  const auto n = static_cast<Eigen::Index>(numbers.size());
-  return {.mode_numbers = std::move(numbers),
-          .omega = reader.vector("frequencies", n),
-          .at = reader.vector("evaluated_at", n),
-          .damping = reader.vector("damping", n),
-          .added_mass = reader.vector("added_mass", n)};
+  return files::read_fields<Radiation>(reader, "");
 }
 
 }  // namespace chladni::squeal

@@ -6,14 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "common/files/hdf5.hpp"
 #include "squeal/results/stability_results.hpp"
 
 namespace chladni::squeal {
-
-/// Write and read the group /mode_sensitivity of a result file.
-void write_sensitivity(files::Writer& file, const ModeSensitivity& sensitivity);
-ModeSensitivity read_sensitivity(const files::Reader& file);
 
 /// Derivatives by one parameter of the brake.
 struct GradientRow {
@@ -56,17 +51,5 @@ UsualChange usual_change(const GradientRow& row);
 /// Effect of the usual change of a value on the critical speed or, without one, on the largest
 /// growth rate; absolute value, rad/s or 1/s.
 double effect_of_usual_change(const Gradients& gradients, const GradientRow& row);
-
-}  // namespace chladni::squeal
-
-/// Writes the group /gradients of a result file.
-
-namespace chladni::squeal {
-
-void write_gradients(files::Writer& file, const Gradients& gradients);
-
-/// Reads the group /gradients of a result file.
-/// @throws chladni::Error when the group is damaged.
-Gradients read_gradients(const files::Reader& file);
 
 }  // namespace chladni::squeal

@@ -2,13 +2,10 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "common/files/hdf5.hpp"
 #include "squeal/study_options.hpp"
 
 namespace chladni::squeal {
@@ -226,55 +223,5 @@ std::optional<double> in_plane_share(const StabilityTable& table, const Stabilit
 /// A sentence on the table, such as "no mode is unstable at any speed of the range" or "4 of 35
 /// modes are unstable somewhere".
 std::string summary(const StabilityTable& table);
-
-/// The parts of an ErrorBudget and their names in files.
-inline constexpr std::array<std::pair<const char*, std::optional<double> ErrorBudget::*>, 5>
-    budget_parts{{{"mesh", &ErrorBudget::mesh},
-                  {"reduction", &ErrorBudget::reduction},
-                  {"body", &ErrorBudget::body},
-                  {"modes_left_out", &ErrorBudget::left_out},
-                  {"integration", &ErrorBudget::integration}}};
-
-/// Writes the datasets `stability`, `range/...` and `unstable/...` of a group; see
-/// docs/reference/file_formats.md.
-/// @param unit  unit of the parameter
-void write_profile(files::Writer& file, const std::string& group, const StabilityProfile& profile,
-                   const std::string& unit);
-
-/// Reads the datasets of write_profile; absent when the group has none, as in files of earlier
-/// versions.
-std::optional<StabilityProfile> read_profile(const files::Reader& file, const std::string& group);
-
-/// Writes points as the datasets `values`, `growth` and `frequency` of a group.
-/// @param unit  unit of the parameter
-void write_points(files::Writer& file, const std::string& group,
-                  const std::vector<StabilityPoint>& points, const std::string& unit);
-/// Reads the points of a group.
-/// @param n  required number of points
-std::vector<StabilityPoint> read_points(const files::Reader& file, const std::string& group,
-                                        Eigen::Index n);
-
-/// Writes intervals as the points `from`, `to` and `worst` of a group, which is omitted when there
-/// are none.
-/// @param unit  unit of the parameter
-void write_intervals(files::Writer& file, const std::string& group,
-                     const std::vector<UnstableInterval>& intervals, const std::string& unit);
-/// Reads the intervals of a group; empty when the group is missing.
-std::vector<UnstableInterval> read_intervals(const files::Reader& file, const std::string& group);
-
-/// Writes the group /stability of a result file; see docs/reference/file_formats.md.
-void write_stability_table(files::Writer& file, const StabilityTable& table);
-
-/// Reads the group /stability of a result file.
-/// @throws chladni::Error naming file and dataset, when something is missing, has a wrong size or
-///         is not finite.
-StabilityTable read_stability_table(const files::Reader& file);
-
-/// Writes the group /rotation_stability of a result file; see docs/reference/file_formats.md.
-void write_rotation_stability(files::Writer& file, const RotationStability& stability);
-
-/// Reads the group /rotation_stability, also from files of earlier versions, which have neither
-/// method nor exponents.
-RotationStability read_rotation_stability(const files::Reader& file);
 
 }  // namespace chladni::squeal

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "common/files/hdf5.hpp"
-
 namespace chladni::squeal {
 
 /// Largest motion of the first upper pad in consecutive windows of time.
@@ -105,19 +103,6 @@ struct Growth {
 /// second".
 std::string spoken(const Band& band);
 
-/// Write and read the dataset of a number that may be absent.
-void write_optional(files::Writer& file, const std::string& name, const std::optional<double>& x,
-                    const std::string& unit);
-std::optional<double> read_optional(const files::Reader& file, const std::string& name);
-
-/// Write and read an envelope in the group `group` of a result file.
-void write_envelope(files::Writer& file, const std::string& group, const Envelope& envelope);
-Envelope read_envelope(const files::Reader& file, const std::string& group);
-
-/// Write and read the group /transient of a result file.
-void write_transient(files::Writer& file, const Transient& run);
-Transient read_transient(const files::Reader& file);
-
 /// Amplitude spectrum of an oscillation.
 struct Spectrum {
   Eigen::VectorXd frequency_Hz;
@@ -180,9 +165,5 @@ struct Spectrogram {
   /// there are fewer.
   Eigen::MatrixXd line_Hz, line_amplitude;
 };
-
-/// Write and read the group /motion_statistics of a result file.
-void write_statistics(files::Writer& file, const MotionStatistics& statistics);
-MotionStatistics read_statistics(const files::Reader& file);
 
 }  // namespace chladni::squeal

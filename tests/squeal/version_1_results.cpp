@@ -1,5 +1,7 @@
 #include "version_1_results.hpp"
 
+#include "tests/common/files/scratch_folder.hpp"
+
 namespace chladni::squeal::test {
 namespace {
 
@@ -125,6 +127,13 @@ SquealResults version_1_results()
 Radiation version_1_radiation()
 {
   return {{1, 3}, thirds(2), thirds(2), thirds(2), thirds(2)};
+}
+
+SquealResults returned(const SquealResults& written)
+{
+  const files::test::ScratchFolder folder;
+  write_results(folder.file("x.squeal.h5"), written, {});
+  return read_results(std::filesystem::path(folder.file("x.squeal.h5")));
 }
 
 }  // namespace chladni::squeal::test

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <optional>
+
 #include "squeal/brake/radiation.hpp"
-#include "squeal/results/squeal_results.hpp"
+#include "squeal/results/result_fields.hpp"
 
 namespace chladni::squeal::test {
 
@@ -11,5 +15,17 @@ SquealResults version_1_results();
 
 /// What tests/data/version_1.radiation.h5 holds.
 Radiation version_1_radiation();
+
+/// Results after they were written and read.
+SquealResults returned(const SquealResults& written);
+
+/// All members that a file stores are equal.
+template <files::Stored T>
+void expect_equal(const std::optional<T>& read, const std::optional<T>& written)
+{
+  ASSERT_TRUE(read);
+  ASSERT_TRUE(written);
+  EXPECT_EQ(files::difference(*read, *written), "");
+}
 
 }  // namespace chladni::squeal::test
