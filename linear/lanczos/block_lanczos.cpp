@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
+#include "common/told_apart.hpp"
 #include "linear/progress.hpp"
 
 namespace chladni::linear {
@@ -207,10 +209,16 @@ void BlockLanczos::iterate(Goal goal)
     iteration_.step(op_);
     if (has_converged(goal)) return;
   }
+  iteration_.order_ritz_values(std::greater<>());
+  const RitzValues pairs = iteration_.pairs();
+  const auto n = std::size_t(n_found_first(pairs, options_.tolerance));
+  const double residual = n < pairs.theta.size() ? pairs.residual[n] / std::abs(pairs.theta[n])
+                                                 : std::numeric_limits<double>::infinity();
+  const auto [reached, asked] = told_apart(residual, options_.tolerance);
   throw Error(
-      fmt::format("block_lanczos: {} pairs did not converge to {:.1e} in {} block solves; "
-                  "ask for fewer or raise the tolerance",
-                  goal.n_pairs, options_.tolerance, options_.max_steps));
+      fmt::format("block_lanczos: of {} pairs {} converged to {} in {} block solves, and the next "
+                  "one to {}; ask for fewer or raise the tolerance",
+                  goal.n_pairs, n, asked, options_.max_steps, reached));
 }
 
 EigenPairs block_lanczos(Mat factor, Mat M, const BlockLanczosOptions& options)
