@@ -24,6 +24,42 @@ struct Admissible {
   std::string_view usually = {};  ///< text of that note, such as "a steel has 2.1e11 Pa"
 };
 
+inline constexpr Admissible no_number{};  ///< of a key that has words or texts
+
+/// Any number in this unit.
+constexpr Admissible in(std::string_view unit)
+{
+  return {.unit = unit};
+}
+
+constexpr Admissible positive(std::string_view unit = {})
+{
+  return {.above = 0.0, .unit = unit};
+}
+
+constexpr Admissible not_negative(std::string_view unit = {})
+{
+  return {.at_least = 0.0, .unit = unit};
+}
+
+constexpr Admissible at_least(double smallest)
+{
+  return {.at_least = smallest};
+}
+
+constexpr Admissible from_to(double smallest, double largest, std::string_view unit = {})
+{
+  return {.at_least = smallest, .at_most = largest, .unit = unit};
+}
+
+/// The same numbers with a note on those above `usual_to`.
+constexpr Admissible usually(Admissible numbers, double usual_to, std::string_view note)
+{
+  numbers.usual_to = usual_to;
+  numbers.usually = note;
+  return numbers;
+}
+
 /// Whether the number is accepted.
 bool admits(const Admissible& admissible, double x);
 
