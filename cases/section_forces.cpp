@@ -17,6 +17,7 @@
 #include "plate/assembly/assemble.hpp"
 #include "plate/elements/beam_element.hpp"
 #include "plate/elements/shell_resultants.hpp"
+#include "plate/elements/solid_element.hpp"
 #include "plate/sections/sections.hpp"
 #include "scene/scene.hpp"
 
@@ -261,6 +262,39 @@ ResultantModes beam_section_forces(const Chosen& chosen, const plate::BeamSectio
   return forces;
 }
 
+Index points_of_solid(const mesh::ElementBlock& block)
+{
+  return mesh::is_solid(block.shape) ? plate::stress_points_of(block.shape, block.order) : 0;
+}
+
+/// The six stresses in the axes of the model where they are most accurate
+/// (plate::solid_stresses).
+/// @note   Collective, as `rows_of`.
+ResultantModes solid_stresses(const Chosen& chosen, const plate::SolidSection& section,
+                              const MeshedDofs& fe, const RowsOf& rows_of)
+{
+  const MatrixXd u = node_rows(chosen.nodes, fe.dofs, rows_of);
+  ResultantModes forces{
+      .name = chosen.group,
+      .kinds = {"sigma_x", "sigma_y", "sigma_z", "sigma_xy", "sigma_yz", "sigma_xz"},
+      .units = {"Pa", "Pa", "Pa", "Pa", "Pa", "Pa"},
+      .elements = {},
+      .positions = ResultantModes::Rows(chosen.n_points, 3),
+      .axes = Matrix3d::Identity().reshaped().transpose().replicate(chosen.n_points, 1),
+      .S = MatrixXd(n_line_kinds * chosen.n_points, u.cols())};
+  for (const ChosenElement& solid : chosen.elements) {
+    const auto& [block, element, first] = solid;
+    const auto [x, S_e] =
+        plate::solid_stresses(block.shape, block.order,
+                              plate::element_positions(fe.mesh, block, element), section.material);
+    forces.positions.middleRows(first, x.rows()) = x;
+    forces.elements.insert(forces.elements.end(), std::size_t(x.rows()), block.numbers[element]);
+    forces.S.middleRows(6 * first, S_e.rows()) = S_e * rows_of_element(chosen, solid, u);
+  }
+  drop_silent_kinds(forces);
+  return forces;
+}
+
 }  // namespace
 
 std::vector<ResultantModes> section_forces(const scene::ResultantChoice& choice,
@@ -275,11 +309,17 @@ std::vector<ResultantModes> section_forces(const scene::ResultantChoice& choice,
                                             *shell, fe, rows_of));
       continue;
     }
+    const auto solid = std::ranges::find(structure.solids, name, &plate::SolidSection::group);
+    if (solid != structure.solids.end()) {
+      forces.push_back(solid_stresses(choose_elements(fe.mesh, name, choice, points_of_solid),
+                                      *solid, fe, rows_of));
+      continue;
+    }
     const auto section = std::ranges::find(structure.beams, name, &plate::BeamSection::group);
     if (section == structure.beams.end()) {
       throw Error(fmt::format(
           "resultants: the group \"{}\" has no section; section forces are those of beams and "
-          "shells",
+          "shells, and stresses those of solids",
           name));
     }
     forces.push_back(beam_section_forces(choose_elements(fe.mesh, name, choice, points_of_line),

@@ -216,6 +216,7 @@ ResultantChoice read_resultants(const Table& root, const Scene& scene)
   std::vector<std::string> known;
   for (const plate::BeamSection& beam : scene.beams) known.push_back(beam.group);
   for (const plate::ShellSection& shell : scene.sections) known.push_back(shell.group);
+  for (const plate::SolidSection& solid : scene.solids) known.push_back(solid.group);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (!contains(known, groups[i]))
       table.refuse_element("resultants", i, no_such_name("group of elements", groups[i], known));

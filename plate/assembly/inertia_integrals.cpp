@@ -260,9 +260,9 @@ PlacedPoints element_points(const MassModel& model, const mesh::ElementBlock& bl
   }
   if (mesh::is_solid(block.shape)) {
     const SolidSection& section = model.structure.solids[model.sections.solid[group]];
-    return {.points = solid_mass_points(solid_of_mesh(model.mesh, block, element),
-                                        section.material.density),
-            .arms = {}};
+    return {
+        .points = solid_mass_points(solid_of_mesh(model.mesh, block, element), section.material),
+        .arms = {}};
   }
   const ShellSection& section = model.structure.shells[model.sections.shell[group]];
   const ShellNodes shell = shell_nodes(model.mesh, block, element, model.directors, section);

@@ -190,6 +190,35 @@ const SolidRule& solid_rule(Shape shape, int order)
   return it != cache.end() ? it->second : cache.emplace(key, rule_for(shape, order)).first->second;
 }
 
+/// Where stresses are most accurate; without weights but those of Gauss.
+SolidPoints stress_points(Shape shape, int order)
+{
+  if (shape == Shape::hexahedron) return hexahedron_points(order);
+  SolidPoints points{.r = MatrixX3d(shape == Shape::tetrahedron ? 4 : 6, 3), .weight = {}};
+  if (shape == Shape::tetrahedron) {
+    constexpr double a = 0.13819660112501051518;  // (5 - sqrt 5) / 20
+    points.r.setConstant(a);
+    for (Index c = 0; c < 3; ++c) points.r(c + 1, c) = 1.0 - 3.0 * a;
+  } else {
+    const GaussRule g = gauss_legendre(2);
+    for (Index q = 0; q < 6; ++q) {
+      const Index corner = q % 3;
+      points.r.row(q) << (corner == 1 ? 4.0 : 1.0) / 6.0, (corner == 2 ? 4.0 : 1.0) / 6.0,
+          g.x[q / 3];
+    }
+  }
+  points.weight = VectorXd::Ones(points.r.rows());
+  return points;
+}
+
+SolidRule stress_rule(Shape shape, int order)
+{
+  SolidRule rule{.points = stress_points(shape, order), .basis = {}, .centre = {}};
+  rule.basis = solid_basis(shape, order, rule.points.r);
+  if (shape == Shape::hexahedron) rule.centre = solid_basis(shape, order, MatrixX3d::Zero(1, 3));
+  return rule;
+}
+
 /// Rows: the derivatives of the position by r, s, t at a point.
 Matrix3d jacobian(const SolidBasis& basis, Index q, const NodeVectors& nodes)
 {
@@ -213,15 +242,15 @@ Matrix3d incompatible_gradients(const Eigen::RowVector3d& r, const Matrix3d& J_0
 
 constexpr Index n_incompatible = 3;
 
-}  // namespace
-
-SolidFrame solid_frame(Shape shape, int order, const NodeVectors& nodes)
+SolidFrame frame_at(const SolidRule& rule, const NodeVectors& nodes, bool has_more)
 {
-  const SolidRule& rule = solid_rule(shape, order);
   const Index n = nodes.rows(), n_points = rule.points.weight.size();
-  const bool has_more = has_incompatible_modes(shape, order);
-  SolidFrame frame{
-      .dV = VectorXd(n_points), .N = rule.basis.N, .x = rule.basis.N * nodes, .gradient = {}};
+  SolidFrame frame{.dV = VectorXd(n_points),
+                   .N = rule.basis.N,
+                   .x = rule.basis.N * nodes,
+                   .gradient = {},
+                   .incompatible = has_more ? MatrixXd(1.0 - rule.points.r.array().square())
+                                            : MatrixXd(n_points, 0)};
   for (MatrixXd& along : frame.gradient)
     along.resize(n_points, n + (has_more ? n_incompatible : 0));
   const Matrix3d J_0 = has_more ? jacobian(rule.centre, 0, nodes) : Matrix3d::Identity();
@@ -239,6 +268,13 @@ SolidFrame solid_frame(Shape shape, int order, const NodeVectors& nodes)
       frame.gradient[std::size_t(c)].row(q).tail<n_incompatible>() = more.row(c);
   }
   return frame;
+}
+
+}  // namespace
+
+SolidFrame solid_frame(Shape shape, int order, const NodeVectors& nodes)
+{
+  return frame_at(solid_rule(shape, order), nodes, has_incompatible_modes(shape, order));
 }
 
 namespace {
@@ -279,14 +315,39 @@ MatrixXd stiffness_of(const SolidFrame& frame, const Material& material)
   return K;
 }
 
-/// Without the last coordinates, which nothing loads.
-MatrixXd condensed(const MatrixXd& K, Index n_kept)
+/// T = -K_oo^-1 K_oi: the last coordinates, which nothing loads, by the first n_kept.
+MatrixXd followers(const MatrixXd& K, Index n_kept)
 {
   const Index n_out = K.rows() - n_kept;
-  if (n_out == 0) return K;
-  const MatrixXd K_oi = K.bottomLeftCorner(n_out, n_kept);
-  return K.topLeftCorner(n_kept, n_kept) -
-         K_oi.transpose() * K.bottomRightCorner(n_out, n_out).ldlt().solve(K_oi);
+  if (n_out == 0) return MatrixXd(0, n_kept);
+  return -K.bottomRightCorner(n_out, n_out).ldlt().solve(K.bottomLeftCorner(n_out, n_kept));
+}
+
+/// u_c = N_c d at the points, c = x, y, z, with the incompatible modes T d.
+std::array<MatrixXd, 3> displacements(const SolidFrame& frame, const MatrixXd& T)
+{
+  const Index n = frame.N.cols();
+  std::array<MatrixXd, 3> N;
+  for (Index c = 0; c < 3; ++c) {
+    N[std::size_t(c)] = frame.incompatible * T(Eigen::seqN(c, T.rows() / 3, 3), Eigen::all);
+    N[std::size_t(c)](Eigen::all, Eigen::seqN(c, n, 3)) += frame.N;
+  }
+  return N;
+}
+
+/// sum dm N^T N over the points; one block for all components where only nodes move.
+MatrixXd mass_of(const SolidFrame& frame, const MatrixXd& T, double density)
+{
+  const VectorXd dm = density * frame.dV;
+  const Index n = frame.N.cols();
+  MatrixXd M = MatrixXd::Zero(3 * n, 3 * n);
+  if (T.rows() > 0) {
+    for (const MatrixXd& N : displacements(frame, T)) M += N.transpose() * dm.asDiagonal() * N;
+    return M;
+  }
+  const MatrixXd of_component = frame.N.transpose() * dm.asDiagonal() * frame.N;
+  for (Index c = 0; c < 3; ++c) M(Eigen::seqN(c, n, 3), Eigen::seqN(c, n, 3)) = of_component;
+  return M;
 }
 
 /// From three DOFs a node to six.
@@ -304,12 +365,10 @@ MatrixXd with_rotations(const MatrixXd& A)
 ElementMatrices solid_matrices(const SolidFrame& frame, const Material& material)
 {
   const Index n = frame.N.cols();
-  const MatrixXd of_component =
-      frame.N.transpose() * (material.density * frame.dV).asDiagonal() * frame.N;
-  MatrixXd M = MatrixXd::Zero(3 * n, 3 * n);
-  for (Index c = 0; c < 3; ++c) M(Eigen::seqN(c, n, 3), Eigen::seqN(c, n, 3)) = of_component;
-  return {.K = with_rotations(condensed(stiffness_of(frame, material), 3 * n)),
-          .M = with_rotations(M)};
+  const MatrixXd K = stiffness_of(frame, material), T = followers(K, 3 * n);
+  return {
+      .K = with_rotations(K.topLeftCorner(3 * n, 3 * n) + K.topRightCorner(3 * n, T.rows()) * T),
+      .M = with_rotations(mass_of(frame, T, material.density))};
 }
 
 namespace {
@@ -322,11 +381,8 @@ MatrixXd all_displacements(const SolidFrame& frame, const Material& material, co
   MatrixXd u = MatrixXd::Zero(n_all, 3);
   for (Index i = 0; i < n; ++i) u.row(i) = u_e.segment<3>(6 * i).transpose();
   if (n_all == n) return u;
-  const MatrixXd K = stiffness_of(frame, material);
-  const Index n_out = 3 * (n_all - n);
   const VectorXd of_nodes = u.topRows(n).transpose().reshaped();
-  const VectorXd out =
-      K.bottomRightCorner(n_out, n_out).ldlt().solve(-K.bottomLeftCorner(n_out, 3 * n) * of_nodes);
+  const VectorXd out = followers(stiffness_of(frame, material), 3 * n) * of_nodes;
   u.bottomRows(n_all - n) = out.reshaped(3, n_all - n).transpose();
   return u;
 }
@@ -357,13 +413,59 @@ MatrixXd solid_geometric_stiffness(const SolidFrame& frame, const Material& mate
   return K;
 }
 
-MassPoints solid_mass_points(const SolidFrame& frame, double density)
+Index stress_points_of(Shape shape, int order)
+{
+  return stress_points(shape, order).r.rows();
+}
+
+SolidStresses solid_stresses(Shape shape, int order, const NodeVectors& nodes,
+                             const Material& material)
+{
+  const Index n = nodes.rows();
+  const bool has_more = has_incompatible_modes(shape, order);
+  const SolidFrame frame = frame_at(stress_rule(shape, order), nodes, has_more);
+  const Index n_all = frame.gradient[0].cols();
+  MatrixXd u = MatrixXd::Identity(3 * n_all, 3 * n);  // of nodes and incompatible modes
+  if (has_more) {
+    u.bottomRows(3 * n_incompatible) =
+        followers(stiffness_of(solid_frame(shape, order, nodes), material), 3 * n);
+  }
+  const auto [lambda, mu] = LameConstants(material);
+  constexpr std::array<std::array<Index, 2>, 6> components{
+      {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+  SolidStresses stresses{.x = frame.x, .S = MatrixXd::Zero(6 * frame.x.rows(), 6 * n)};
+  for (Index q = 0; q < frame.x.rows(); ++q) {
+    MatrixXd sigma = MatrixXd::Zero(6, 3 * n_all);
+    for (Index row = 0; row < 6; ++row) {
+      const auto [a, b] = components[std::size_t(row)];
+      sigma(row, Eigen::seqN(b, n_all, 3)) += mu * frame.gradient[std::size_t(a)].row(q);
+      sigma(row, Eigen::seqN(a, n_all, 3)) += mu * frame.gradient[std::size_t(b)].row(q);
+      for (Index c = 0; a == b && c < 3; ++c)
+        sigma(row, Eigen::seqN(c, n_all, 3)) += lambda * frame.gradient[std::size_t(c)].row(q);
+    }
+    const MatrixXd of_nodes = sigma * u;
+    for (Index c = 0; c < 3; ++c) {
+      stresses.S(Eigen::seqN(6 * q, 6), Eigen::seqN(c, n, 6)) =
+          of_nodes(Eigen::all, Eigen::seqN(c, n, 3));
+    }
+  }
+  return stresses;
+}
+
+MassPoints solid_mass_points(const SolidFrame& frame, const Material& material)
 {
   const Index n = frame.N.cols();
-  MassPoints points{.dm = density * frame.dV, .x = frame.x, .N = {}};
+  const MatrixXd T = frame.incompatible.cols() == 0
+                         ? MatrixXd(0, 3 * n)
+                         : followers(stiffness_of(frame, material), 3 * n);
+  const std::array<MatrixXd, 3> N = displacements(frame, T);
+  MassPoints points{.dm = material.density * frame.dV, .x = frame.x, .N = {}};
   points.N.fill(StrainRows::Zero(frame.dV.size(), 6 * n));
-  for (Index c = 0; c < 3; ++c)
-    points.N[std::size_t(c)](Eigen::all, Eigen::seqN(c, n, 6)) = frame.N;
+  for (std::size_t c = 0; c < 3; ++c)
+    for (Index component = 0; component < 3; ++component) {
+      points.N[c](Eigen::all, Eigen::seqN(component, n, 6)) =
+          N[c](Eigen::all, Eigen::seqN(component, n, 3));
+    }
   return points;
 }
 

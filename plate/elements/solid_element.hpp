@@ -20,6 +20,7 @@ struct SolidFrame {
   /// x, y, z: [n_points x n_nodes] derivatives of the shape functions, 1/m; of hexahedra of order 1
   /// also of their three incompatible modes, behind the nodes.
   std::array<Eigen::MatrixXd, 3> gradient;
+  Eigen::MatrixXd incompatible;  ///< [n_points x 3] values of these modes; else no columns
 };
 
 /// The shape functions and their slopes at the integration points: of hexahedra of order p the
@@ -36,12 +37,13 @@ SolidFrame solid_frame(mesh::Shape shape, int order, const NodeVectors& nodes);
 
 /// K_e = int B^T C B dV and M_e = int rho N^T N dV of an isotropic solid, with six DOFs a node like
 /// all elements; the rows of rotations are zero. Hexahedra of order 1 have nine incompatible modes,
-/// eliminated in the element, which pass the patch test by the Jacobian of the centre.
+/// eliminated in the element, which pass the patch test by the Jacobian of the centre. They move as
+/// K has it and their mass moves with them: the middle of a bent element stands off its corners.
 /// Source: Taylor, Beresford and Wilson, Int. J. Numer. Methods Eng. 10 (1976) 1211 (incompatible).
 ElementMatrices solid_matrices(const SolidFrame& frame, const Material& material);
 
 /// The integration points of M_e.
-MassPoints solid_mass_points(const SolidFrame& frame, double density);
+MassPoints solid_mass_points(const SolidFrame& frame, const Material& material);
 
 /// K_sigma by the stresses sigma of the static displacements u_e,
 ///   v^T K_sigma v = int sigma_ab v_,a . v_,b dV.
@@ -51,6 +53,20 @@ MassPoints solid_mass_points(const SolidFrame& frame, double density);
 /// Source: Zienkiewicz and Taylor, The Finite Element Method 2 (2000), initial stress matrix.
 Eigen::MatrixXd solid_geometric_stiffness(const SolidFrame& frame, const Material& material,
                                           const Eigen::VectorXd& u_e);
+
+/// The stresses of a solid where they are most accurate, as linear forms in the DOFs of its nodes.
+struct SolidStresses {
+  NodeVectors x;  ///< [n_points x 3] m
+  Eigen::MatrixXd
+      S;  ///< [6 n_points x 6 n_nodes] xx, yy, zz, xy, yz, xz of each point in turn, Pa/m
+};
+
+/// At Gauss p cubed of hexahedra of order p, 4 points of tetrahedra and 3 x 2 of wedges.
+/// Source: Barlow, Int. J. Numer. Methods Eng. 10 (1976) 243 (where stresses are accurate).
+SolidStresses solid_stresses(mesh::Shape shape, int order, const NodeVectors& nodes,
+                             const Material& material);
+/// The number of these points.
+Eigen::Index stress_points_of(mesh::Shape shape, int order);
 
 /// Points of a face of a solid, (r, s) in [-1, 1]^2 or of a triangle, and the shape functions of
 /// its nodes (mesh::solid_faces) there.

@@ -53,6 +53,48 @@ resultants = ["beam"]
 [body]
 fixed = ["A"]
 """
+SOLID_BEAM = """
+name = "solid"
+[mesh]
+generator = "rectangle"
+length = 1.0
+width = 0.1
+element_order = 2
+element_size = 0.05
+extrude = { from = -0.05, to = 0.05, layers = 2 }
+[material.unit]
+young = 1e6
+poisson = 0.3
+density = 1.0
+[[section]]
+group = "plate"
+type = "solid"
+material = "unit"
+[[coupling]]
+name = "A"
+group = "left"
+type = "rigid"
+[[coupling]]
+name = "C"
+group = "right"
+type = "averaging"
+[interface]
+nodes = ["A", "C"]
+[reduce]
+method = "craig-bampton"
+modes = 6
+resultants = ["plate"]
+[body]
+fixed = ["A"]
+[response]
+of = "reduced"
+loads = [{ at = "C", dofs = ["x", "z"] }]
+outputs = [{ at = "C", dofs = ["z"] }]
+from_Hz = 0.0
+to_Hz = 0.1
+count = 2
+section_forces = ["plate"]
+"""
 RESPONSE = """
 [response]
 of = "body"
@@ -242,6 +284,25 @@ def check_section_forces(program, mpirun, folder, checks):
         moment, shear = (np.abs(r[:, kinds.index(kind)]) for kind in ("M_y", "Q_z"))
         checks.below(f"{model}: static moments", np.abs(moment - (1 - x)).max(), 1e-6)
         checks.below(f"{model}: static shear forces", np.abs(shear - 1).max(), 1e-6)
+
+
+def check_stresses(program, mpirun, folder, checks):
+    """A force of 1 N at the end of a bar of solids: sigma_x = F / A, or M z / I beside the shear force, far from the ends."""
+    bar = Case(program, mpirun, folder, SOLID_BEAM, "solid").made()
+    bar.responses()
+    with h5py.File(bar.folder / "out/solid.response.h5") as f:
+        group = f["section_forces/plate"]
+        x, _, z = group["positions"][:].T
+        kinds = list(group["kinds"].asstr()[:])
+        stresses = {load: group[f"responses/C.{load}/r_re"][0].reshape(len(x), len(kinds)).T for load in "xz"}
+    middle = (x > 0.3) & (x < 0.7)
+    pulled, bent = (dict(zip(kinds, stresses[load][:, middle])) for load in "xz")
+    checks.below("stress of a bar that is pulled", np.abs(pulled["sigma_x"] * 0.01 - 1.0).max(), 1e-4)
+    others = [np.abs(pulled[kind]).max() for kind in kinds if kind != "sigma_x"]
+    checks.below("other stresses of a bar that is pulled", max(others) * 0.01, 1e-4)
+    exact = (1.0 - x[middle]) * z[middle] / (0.1**4 / 12.0)
+    checks.below("stress of a bar that is bent", np.abs(bent["sigma_x"] + exact).max() / np.abs(exact).max(), 1e-3)
+    checks.below("shear force of its mean", abs(bent["sigma_xz"].mean() * 0.01 - 1.0), 1e-3)
 
 
 def check_disc(program, mpirun, folder, checks):
@@ -506,7 +567,7 @@ def main(program, mpirun, chromium=None):
         print("\ncheck_page")
         with tempfile.TemporaryDirectory() as folder:
             check_page(program, mpirun, folder, checks, chromium)
-    for check in (check_beam, check_damping, check_loss_factors, check_quantities, check_section_forces, check_disc, check_fe_places, check_files,
+    for check in (check_beam, check_damping, check_loss_factors, check_quantities, check_section_forces, check_stresses, check_disc, check_fe_places, check_files,
                   check_universal_file, check_mac, check_example, check_mistakes, check_stale):  # fmt: skip
         print(f"\n{check.__name__}")
         with tempfile.TemporaryDirectory() as folder:
