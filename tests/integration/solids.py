@@ -319,7 +319,7 @@ def failures(programs, mpirun, folder):
     yield from annulus(programs, folder, 6e-4, 0.0209, 3, 1)
     yield from annulus(programs, folder, 6e-4, 0.0209, 3, 1, exact=IN_PLANE)
     yield from annulus(programs, folder, 3e-3, 0.0209, 2, 2)
-    yield from annulus(programs, folder, 2e-2, 0.0105, 1, 4)
+    yield from annulus(programs, folder, 7.5e-3, 0.0105, 1, 4)
     yield from annulus(programs, folder, 6e-3, 0.0209, 2, 2, "triangles")
     yield from sphere(programs, folder, mpirun)
     yield from loads(programs, folder)
