@@ -178,10 +178,13 @@ SquealOptions with_friction(SquealOptions options, MapParameter parameter, doubl
   return options;
 }
 
-void add_own_friction(std::vector<ParameterValue>& values, const FrictionLaw& law, int pad)
+/// Adds the parameters of a prefix by which a scene states the law.
+/// @param pad  number of the pad, from 1, or 0
+void add_said(std::vector<ParameterValue>& values, const FrictionLaw& law, std::string_view prefix,
+              int pad)
 {
   for (const ParameterRow& row : parameters)
-    if (row.name.starts_with(of_pads) && is_said_by(law, friction_key(row.name)))
+    if (row.name.starts_with(prefix) && is_said_by(law, friction_key(row.name)))
       values.push_back({{row.name, pad}, *friction_value(law, friction_key(row.name))});
 }
 
@@ -221,7 +224,7 @@ std::vector<ParameterValue> parameter_values(SquealOptions options)
     for (const PadRow& row : parameters_of_pads)
       if (const double* const at = row.at(options.pads[i]))
         values.push_back({{row.name, number}, *at / row.unit});
-    if (options.pads[i].friction) add_own_friction(values, *options.pads[i].friction, number);
+    if (options.pads[i].friction) add_said(values, *options.pads[i].friction, of_pads, number);
   }
   return values;
 }
@@ -276,27 +279,15 @@ bool is_said_by(const FrictionLaw& law, std::string_view key)
   return friction_value(law, key).has_value();
 }
 
-namespace {
-
-constexpr std::string_view of_law = "friction";
-
-std::string_view key_within(std::string_view name)
-{
-  name.remove_prefix(of_law.size());
-  return name.empty() ? name : name.substr(1);
-}
-
-}  // namespace
-
 bool is_of_law(MapParameter parameter)
 {
-  return parameter.name.starts_with(of_law);
+  return parameter.name.starts_with(of_brake);
 }
 
 FrictionLaw with_friction_parameter(const FrictionLaw& law, MapParameter parameter, double value)
 {
   double set = value;
-  const std::string_view key = key_within(parameter.name);
+  const std::string_view key = friction_key(parameter.name);
   const bool has = friction_value(law, key).has_value() && parameter.pad == 0;
   set_parameter(has ? &set : nullptr, parameter, value);
   return with_friction_value(law, key, value);
@@ -305,40 +296,22 @@ FrictionLaw with_friction_parameter(const FrictionLaw& law, MapParameter paramet
 std::vector<ParameterValue> friction_parameters(const FrictionLaw& law)
 {
   std::vector<ParameterValue> values;
-  for (const ParameterRow& row : parameters) {
-    if (!row.name.starts_with(of_law) || !is_said_by(law, key_within(row.name))) continue;
-    values.push_back({{row.name}, *friction_value(law, key_within(row.name))});
-  }
+  add_said(values, law, of_brake, 0);
   return values;
 }
-
-namespace {
-
-struct KeyOfLaw {
-  std::string_view name, unit;
-};
-
-constexpr std::array keys_of_law{KeyOfLaw{"", "1"},
-                                 KeyOfLaw{"kinetic", "1"},
-                                 KeyOfLaw{"static", "1"},
-                                 KeyOfLaw{"decay_speed", "m/s"},
-                                 KeyOfLaw{"regularisation", "m/s"},
-                                 KeyOfLaw{"temperature_C", "degrees Celsius"},
-                                 KeyOfLaw{"factor", "1"}};
-
-}  // namespace
 
 std::vector<FrictionNumber> friction_numbers(const FrictionLaw& law, const std::string& key)
 {
   std::vector<FrictionNumber> numbers;
-  for (const auto& [name, unit] : keys_of_law) {
+  for (const ParameterRow& row : parameters) {
+    if (!row.name.starts_with(of_brake)) continue;
+    const std::string_view name = friction_key(row.name);
     if (!is_said_by(law, name)) continue;
-    numbers.push_back({.key = name.empty() ? key : fmt::format("{}.{}", key, name),
-                       .unit = unit,
-                       .value = *friction_value(law, name),
-                       .with = [law, name = name](double value) {
-                         return with_friction_value(law, name, value);
-                       }});
+    numbers.push_back(
+        {.key = name.empty() ? key : fmt::format("{}.{}", key, name),
+         .unit = row.unit,
+         .value = *friction_value(law, name),
+         .with = [law, name](double value) { return with_friction_value(law, name, value); }});
   }
   return numbers;
 }
