@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <regex>
 
 #include "common/files/hdf5.hpp"
 #include "mbs_export/files/body_files.hpp"
@@ -156,7 +157,9 @@ TEST(SquealProgram, RunsTheModelsThatNeedNoBody)
              read_text(CHLADNI_SOURCE_DIR "/examples/rigid_disc/scene.toml"));
   const Ending rigid = run(folder, squeal_program + " run rigid.toml --json summary.json");
   ASSERT_EQ(rigid.exit_code, 0) << rigid.err;
-  EXPECT_EQ(rigid.err, "");
+  // A slow machine tells after ten seconds how far it is.
+  static const std::regex progress("[0-9]+ s: [0-9]+ %[^\n]*\n");
+  EXPECT_EQ(std::regex_replace(rigid.err, progress, ""), "");
   const std::string json = read_text(folder.path() / "summary.json");
   // Reference value with 40 digits; the growth rate is known to 1e-9 and rises by 0.03 per rad/s.
   EXPECT_NEAR(number_at(json, "critical_speed_rad_s") / pi, 9.478465586019481, 1e-7);

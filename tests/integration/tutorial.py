@@ -14,8 +14,8 @@ from pathlib import Path
 
 TUTORIAL = Path(__file__).parents[2] / "docs/tutorial/brake.md"
 BLOCK = re.compile(r"^```(\w+) ?(\S*)\n(.*?)^```\n(?:\n```text\n.*?^```\n)?", re.M | re.S)
-# Times and memory differ from run to run.
-VOLATILE = re.compile(r"^(phase |CPU of the factorisation|.* \d+\.\d{3} +\d+\.\d{3}$|peak memory)")
+# Times and memory differ from run to run, and a slow machine tells its progress.
+VOLATILE = re.compile(r"^(phase |\d+ s: +\d+ % |CPU of the factorisation|.* \d+\.\d{3} +\d+\.\d{3}$|peak memory)")
 
 
 def shown(text):
