@@ -205,19 +205,36 @@ void write_columns(Writer& file, const std::string& group, std::size_t n, const 
   });
 }
 
-/// Reads what `write_columns` writes.
-/// @param n    number of rows; `any`: as many as there are, with which `fit` is called
+/// How many rows there are, which each column must have: before memory for rows is taken, since a
+/// small file may hold one long column alone.
+/// @param n  `any`, or the number that other columns have
+template <Stored Row>
+Eigen::Index count_rows(const Reader& file, const std::string& group, Eigen::Index n = any)
+{
+  for_each_field<Row>([&](const auto& field) {
+    using Value = std::remove_cvref_t<decltype(std::declval<Row>().*field.member)>;
+    const std::string name = in_fields::joined(group, field.name);
+    if (field.presence == Presence::later && !file.contains(name)) return;
+    if constexpr (Stored<Value>)
+      n = count_rows<Value>(file, name, n);
+    else if constexpr (std::same_as<Value, double> || std::same_as<Value, std::optional<double>>)
+      n = file.vector(name, n).size();
+    else
+      n = std::ssize(file.integers(name, n));
+  });
+  return n;
+}
+
+/// Reads n rows of what `write_columns` writes.
 /// @param at   `at(i)` is the row i
-template <Stored Row, class Fit, class At>
-void read_columns(const Reader& file, const std::string& group, Eigen::Index& n, const Fit& fit,
-                  const At& at)
+template <Stored Row, class At>
+void read_columns(const Reader& file, const std::string& group, Eigen::Index n, const At& at)
 {
   for_each_field<Row>([&](const auto& field) {
     using Value = std::remove_cvref_t<decltype(std::declval<Row>().*field.member)>;
     const std::string name = in_fields::joined(group, field.name);
     if (field.presence == Presence::later && !file.contains(name)) return;
     const auto take = [&](const auto& x) {
-      if (n == any) fit(n = static_cast<Eigen::Index>(std::size(x)));
       for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
         Value& value = at(i).*field.member;
         const auto number = x[i];
@@ -231,7 +248,7 @@ void read_columns(const Reader& file, const std::string& group, Eigen::Index& n,
       }
     };
     if constexpr (Stored<Value>) {
-      read_columns<Value>(file, name, n, fit,
+      read_columns<Value>(file, name, n,
                           [&](std::size_t i) -> Value& { return at(i).*field.member; });
     } else if constexpr (std::same_as<Value, double> ||
                          std::same_as<Value, std::optional<double>>) {
@@ -255,10 +272,8 @@ void write_rows(Writer& file, const std::string& group, const std::vector<Row>& 
 template <Stored Row>
 std::vector<Row> read_rows(const Reader& file, const std::string& group, Eigen::Index n = any)
 {
-  std::vector<Row> rows(n == any ? 0 : static_cast<std::size_t>(n));
-  read_columns<Row>(
-      file, group, n, [&](Eigen::Index size) { rows.resize(static_cast<std::size_t>(size)); },
-      [&](std::size_t i) -> Row& { return rows[i]; });
+  std::vector<Row> rows(static_cast<std::size_t>(count_rows<Row>(file, group, n)));
+  read_columns<Row>(file, group, std::ssize(rows), [&](std::size_t i) -> Row& { return rows[i]; });
   return rows;
 }
 

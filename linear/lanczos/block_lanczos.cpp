@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
+#include <string>
 #include <utility>
 
 #include "common/told_apart.hpp"
@@ -211,14 +211,19 @@ void BlockLanczos::iterate(Goal goal)
   }
   iteration_.order_ritz_values(std::greater<>());
   const RitzValues pairs = iteration_.pairs();
-  const auto n = std::size_t(n_found_first(pairs, options_.tolerance));
-  const double residual = n < pairs.theta.size() ? pairs.residual[n] / std::abs(pairs.theta[n])
-                                                 : std::numeric_limits<double>::infinity();
+  const PetscInt n = n_found_first(pairs, options_.tolerance);
+  const auto next = std::size_t(n);
+  const double residual =
+      next < pairs.theta.size() ? pairs.residual[next] / std::abs(pairs.theta[next]) : 0.0;
   const auto [reached, asked] = told_apart(residual, options_.tolerance);
-  throw Error(
-      fmt::format("block_lanczos: of {} pairs {} converged to {} in {} block solves, and the next "
-                  "one to {}; ask for fewer or raise the tolerance",
-                  goal.n_pairs, n, asked, options_.max_steps, reached));
+  const std::string why = n >= goal.n_pairs ? ", but multiple eigenvalues may have further copies"
+                          : residual > options_.tolerance
+                              ? fmt::format(", and the next one to {}", reached)
+                              : "";
+  throw Error(fmt::format(
+      "block_lanczos: of {} pairs {} converged to {} in {} block solves{}; ask for fewer or raise "
+      "the tolerance",
+      goal.n_pairs, std::min(n, goal.n_pairs), asked, options_.max_steps, why));
 }
 
 EigenPairs block_lanczos(Mat factor, Mat M, const BlockLanczosOptions& options)

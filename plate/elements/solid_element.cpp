@@ -329,7 +329,8 @@ std::array<MatrixXd, 3> displacements(const SolidFrame& frame, const MatrixXd& T
   const Index n = frame.N.cols();
   std::array<MatrixXd, 3> N;
   for (Index c = 0; c < 3; ++c) {
-    N[std::size_t(c)] = frame.incompatible * T(Eigen::seqN(c, T.rows() / 3, 3), Eigen::all);
+    const MatrixXd of_component = T(Eigen::seqN(c, T.rows() / 3, 3), Eigen::all);
+    N[std::size_t(c)] = frame.incompatible * of_component;
     N[std::size_t(c)](Eigen::all, Eigen::seqN(c, n, 3)) += frame.N;
   }
   return N;

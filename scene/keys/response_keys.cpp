@@ -42,7 +42,8 @@ constexpr Key response_rows[] = {
      "eta of a stiffness K (1 + i eta), besides `body.damping`",
      {.at_least = 0.0, .below = 1.0}},
     {"response.section_forces", texts, "none",
-     "groups of `reduce.resultants` whose section forces respond; not of the FE model"},
+     "groups of `reduce.resultants` whose section forces, of solids stresses, respond; not of the "
+     "FE model"},
 };
 
 }  // namespace

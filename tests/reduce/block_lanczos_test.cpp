@@ -111,9 +111,8 @@ TEST(BlockLanczos, SaysWhenItDoesNotConverge)
 {
   const FixedChain c(200);
   const linear::Factorization factor(c.K.ss);
-  const std::vector<std::string> numbers = testing::refused_numbers([&] {
-    linear::block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 20, .max_steps = 4});
-  });
+  const std::vector<std::string> numbers = testing::refused_numbers(
+      [&] { linear::block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 20, .max_steps = 4}); });
   ASSERT_EQ(numbers.size(), 2u);  // what was asked, and what was reached
   EXPECT_GT(std::stod(numbers[1]), std::stod(numbers[0]));
   EXPECT_LT(std::stod(numbers[1]), 1.0);
