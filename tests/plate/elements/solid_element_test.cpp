@@ -154,7 +154,7 @@ double force_inside(const Type& type, Edges edges)
   for (const std::vector<Index>& element : patch.elements) {
     const NodeVectors x = nodes_of(patch, element);
     const VectorXd f = solid_matrices(solid_frame(type.shape, type.order, x), iron).K *
-                       motion(x, some_slopes(), {});
+                       motion(x, some_slopes(), RowVector3d::Zero());
     for (std::size_t i = 0; i < element.size(); ++i)
       force.segment<6>(6 * element[i]) += f.segment<6>(6 * Index(i));
   }
