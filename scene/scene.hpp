@@ -18,7 +18,7 @@ namespace chladni::scene {
 /// The nodes whose displacements the reduced file keeps for pictures.
 enum class PictureChoice { none, vertices, all };
 
-/// The elements whose section forces are kept, as linear forms in the reduced coordinates.
+/// The elements whose section forces or stresses are kept, as linear forms in the coordinates.
 struct ResultantChoice {
   std::vector<std::string> groups;
   std::vector<int> elements;  ///< numbers in the mesh, within the groups; empty: all
