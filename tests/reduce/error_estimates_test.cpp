@@ -281,7 +281,10 @@ TEST(ToleranceSearch, TellsWhatAllModesReach)
     });
   };
   const std::vector<std::string> numbers = all_to(1e-30);
-  if (numbers.empty()) GTEST_SKIP() << "round-off cancels on two ranks: nothing is left";
+  if (numbers.empty()) {  // round-off cancels, as on two ranks: nothing is left
+    EXPECT_TRUE(all_to(std::numeric_limits<double>::min()).empty());
+    return;
+  }
   ASSERT_EQ(numbers.size(), 2u);
   const double reached = std::stod(numbers[0]);
   EXPECT_LT(reached, 1e-9);
