@@ -272,8 +272,9 @@ void write_rows(Writer& file, const std::string& group, const std::vector<Row>& 
 template <Stored Row>
 std::vector<Row> read_rows(const Reader& file, const std::string& group, Eigen::Index n = any)
 {
-  std::vector<Row> rows(static_cast<std::size_t>(count_rows<Row>(file, group, n)));
-  read_columns<Row>(file, group, std::ssize(rows), [&](std::size_t i) -> Row& { return rows[i]; });
+  if (n == any) n = count_rows<Row>(file, group);
+  std::vector<Row> rows(static_cast<std::size_t>(n));
+  read_columns<Row>(file, group, n, [&](std::size_t i) -> Row& { return rows[i]; });
   return rows;
 }
 
