@@ -32,9 +32,8 @@ constexpr double left_out = 0.1;
 /// Of a period, for the disc that stands; no harmonic below it repeats at these angles.
 constexpr int n_frozen_angles = 24;
 
-/// Groups, their corrections and the harmonics of both hold so many bytes for each entry of the
-/// coupling matrix at each angle, at most.
-constexpr double bytes_an_entry = 48.0;
+/// The coupling matrix and its harmonics hold so many bytes for each entry at each angle, at most.
+constexpr double bytes_an_entry = 24.0;
 
 /// Refuses, before it is taken, what would fill the memory of the machine.
 /// @param m  states
@@ -43,7 +42,8 @@ void require_room(double speed, Index m, Index N)
 {
   const double gibibyte = double(1 << 30);
   const double n_threads = std::max(1U, std::thread::hardware_concurrency());
-  const double needed = bytes_an_entry * double(m) * double(m) * double(N) * n_threads / gibibyte;
+  const double bytes_a_state = bytes_an_entry * double(m) + bytes_iterated * columns_iterated;
+  const double needed = bytes_a_state * double(m) * double(N) * n_threads / gibibyte;
   const double machine = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE)) / gibibyte;
   if (needed <= machine) return;
   throw Error(fmt::format(
@@ -100,7 +100,8 @@ HillExponents Hill::exponents(double speed, std::optional<Index> n_least_stable)
   const TurningHarmonics harmonics = this->harmonics(speed);
   const int nu = std::max(1, harmonics.nu);
   const Eigen::Index highest = harmonics.highest / nu;
-  for (Eigen::Index N = power_of_two(2 * highest + 1); N <= n_samples_max; N *= 2) {
+  // The harmonics of the corrections, three eighths of the samples, hold those of the equations.
+  for (Index N = power_of_two(8 * highest / 3 + 1); N <= n_samples_max; N *= 2) {
     require_room(speed, harmonics.A_0.rows(), N);
     const TurningModes modes = turning_modes(harmonics, N);
     const std::vector<NearGroup> groups = near_groups(modes, tolerance_, n_least_stable);

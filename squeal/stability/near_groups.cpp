@@ -41,17 +41,78 @@ constexpr double F_error = 1e-7;
 constexpr double share_limit = 0.5, long_share_limit = 0.03;
 
 constexpr int n_iterations_max = 80;
-/// Of the change of X eight steps before, from the sixteenth on: what falls no faster does not
-/// settle within all of them.
+/// Of the change of X eight steps before, from the 32nd on: what falls no faster does not settle
+/// within all of them.
 constexpr double slowest = 0.2;
-constexpr std::size_t steps_looked_back = 8, steps_until_known = 16;
+constexpr std::size_t steps_looked_back = 8, steps_until_known = 32;
+/// Steps of which a slow iteration combines what they changed, and what is slow: of the change
+/// before.
+constexpr std::size_t steps_combined = 8;
+constexpr double slow = 0.1;
+/// Residuals of combined steps may rise now and then.
+constexpr double rise_limit = 1e2;
+
+/// Anderson's acceleration of c <- G(c): of the last steps that combination is taken whose residual
+/// G(c) - c is least. States that are near each other but not near a group make the plain iteration
+/// diverge in a few directions, although the equations of the group have a solution.
+class Acceleration {
+ public:
+  /// @param image     G(c)
+  /// @param residual  G(c) - c
+  /// @return the next c
+  AngleHarmonics next(const AngleHarmonics& image, const AngleHarmonics& residual)
+  {
+    if (last_image_.size() > 0) {
+      if (images_.size() == steps_combined) {
+        images_.erase(images_.begin());
+        residuals_.erase(residuals_.begin());
+      }
+      images_.push_back((image - last_image_).reshaped());
+      residuals_.push_back((residual - last_residual_).reshaped());
+    }
+    last_image_ = image;
+    last_residual_ = residual;
+    AngleHarmonics combined = image;
+    if (images_.empty()) return combined;
+    const Eigen::VectorXcd gamma = combination(residual.reshaped());
+    for (std::size_t i = 0; i < images_.size(); ++i)
+      combined.reshaped() -= gamma[static_cast<Index>(i)] * images_[i];
+    return combined;
+  }
+
+ private:
+  /// Least squares by the normal equations of columns of norm 1; what depends on others is dropped.
+  Eigen::VectorXcd combination(const Eigen::VectorXcd& residual) const
+  {
+    constexpr double dependent = 1e-10;
+    const auto n = std::ssize(residuals_);
+    Eigen::MatrixXcd R(n, n);
+    Eigen::VectorXcd r(n), scale(n);
+    for (Index i = 0; i < n; ++i) {
+      const Eigen::VectorXcd& f = residuals_[static_cast<std::size_t>(i)];
+      scale[i] = f.norm() > 0.0 ? 1.0 / f.norm() : 0.0;
+      r[i] = scale[i] * f.dot(residual);
+      for (Index j = 0; j <= i; ++j) {
+        R(i, j) = scale[i] * scale[j] * f.dot(residuals_[static_cast<std::size_t>(j)]);
+        R(j, i) = std::conj(R(i, j));
+      }
+    }
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXcd> solver;
+    solver.setThreshold(dependent);
+    solver.compute(R);
+    return scale.cwiseProduct(Eigen::VectorXcd(solver.solve(r)));
+  }
+
+  AngleHarmonics last_image_, last_residual_;
+  std::vector<Eigen::VectorXcd> images_, residuals_;  ///< changes from step to step
+};
 
 /// The iteration for one group; X is zero in the rows of the group. In each step P B P^* multiplies
 /// the columns of `put` at every sample, for all groups at once; `take` is given the product.
 class Reduction {
  public:
   Reduction(const TurningModes& modes, double tolerance, States states)
-      : modes_(modes),
+      : modes_(&modes),
         tolerance_(tolerance),
         states_(std::move(states)),
         g_(static_cast<Index>(states_.size())),
@@ -67,14 +128,14 @@ class Reduction {
   /// The states of the group and what belongs to them of the others at the sample s, [m x g].
   void put(Index s, Eigen::Ref<Eigen::MatrixXcd> W)
   {
-    W = matrix(X_, s, modes_.size());
+    W = matrix(X_, s, modes_->size());
     for (Index j = 0; j < g_; ++j) W(states_[static_cast<std::size_t>(j)], j) += 1.0;
   }
 
   /// B_qg + B_qq X - X (B_gg + B_gq X) in the place of X, and F with it.
   void take(Index s, const Eigen::Ref<const Eigen::MatrixXcd>& BW)
   {
-    auto X = matrix(X_, s, modes_.size());
+    auto X = matrix(X_, s, modes_->size());
     auto F = matrix(F_, s, g_);
     F = BW(states_, every);
     X = (BW - X * F).eval();
@@ -86,7 +147,7 @@ class Reduction {
     AngleHarmonics c = balanced(std::move(X_));
     const AngleHarmonics change = c - c_before(c);
     const double size = std::sqrt(change.cwiseAbs2().maxCoeff());
-    const bool diverges = n_steps_ > 2 && size > 3.0 * least_;
+    const bool diverges = n_steps_ > 2 && size > rise_limit * least_;
     sizes_.push_back(size);
     const bool creeps = sizes_.size() > steps_until_known &&
                         size > slowest * sizes_.end()[-1 - std::ptrdiff_t(steps_looked_back)];
@@ -98,13 +159,14 @@ class Reduction {
     least_ = std::min(least_, size);
     const bool settled = is_settled();
     F_before_ = F_;
-    c_ = c;
+    is_slow_ = is_slow_ || (sizes_.size() > 1 && size > slow * sizes_.end()[-2]);
+    c_ = is_slow_ ? acceleration_.next(c, change) : std::move(c);
     if (settled)
       outcome_ = group_or_link();
     else if (++n_steps_ == n_iterations_max)
       outcome_ = worst(c_);
     else
-      X_ = samples_of(std::move(c));
+      X_ = samples_of(c_);
   }
 
  private:
@@ -126,7 +188,7 @@ class Reduction {
   AngleHarmonics balanced(AngleSamples rest) const
   {
     AngleHarmonics c = harmonics_of(std::move(rest));
-    const Index m = modes_.size(), N = c.cols();
+    const Index m = modes_->size(), N = c.cols();
     for (Index column = 0; column < N; ++column) {
       const Index k = order_of(column, N);
       Eigen::Map<Eigen::MatrixXcd> X(c.col(column).data(), m, g_);
@@ -134,20 +196,24 @@ class Reduction {
         X.setZero();
         continue;
       }
-      const Complex turn{0.0, double(k) * modes_.step};
-      for (Index j = 0; j < g_; ++j) X.col(j).array() /= turn + lambda(j) - modes_.lambda.array();
+      const Complex turn{0.0, double(k) * modes_->step};
+      for (Index j = 0; j < g_; ++j) {
+        const Eigen::ArrayXcd d = turn + lambda(j) - modes_->lambda.array();
+        // What is not excited has no share, even in resonance to the last digit.
+        X.col(j) = (X.col(j).array() == Complex(0.0)).select(X.col(j), X.col(j).array() / d);
+      }
       X(states_, every).setZero();
     }
     return c;
   }
 
-  Complex lambda(Index j) const { return modes_.lambda[states_[static_cast<std::size_t>(j)]]; }
+  Complex lambda(Index j) const { return modes_->lambda[states_[static_cast<std::size_t>(j)]]; }
 
   Link worst(const AngleHarmonics& change) const
   {
     Index row = 0, column = 0;
     change.cwiseAbs2().maxCoeff(&row, &column);
-    return {row % modes_.size(), states_[static_cast<std::size_t>(row / modes_.size())]};
+    return {row % modes_->size(), states_[static_cast<std::size_t>(row / modes_->size())]};
   }
 
   /// What is left out of X is less than its last harmonics; it moves F by B times that, and reaches
@@ -161,19 +227,19 @@ class Reduction {
       share = std::max(share, size);
       if (4 * std::abs(order_of(column, N)) > 3 * kept_) last = std::max(last, size);
     }
-    return last * modes_.B.colwise().norm().maxCoeff() * std::min(1.0, share);
+    return last * modes_->B.colwise().norm().maxCoeff() * std::min(1.0, share);
   }
 
   Reduced group_or_link()
   {
-    const double error = modes_.highest > 0 ? truncation() : 0.0;
+    const double error = modes_->highest > 0 ? truncation() : 0.0;
     if (error > tolerance_ && c_.cwiseAbs2().maxCoeff() > long_share_limit * long_share_limit)
       return worst(c_);
     for (Index j = 0; j < g_; ++j) F_.row(j * g_ + j).array() += lambda(j);
     return NearGroup{states_, true, harmonics_of(F_), kept_, error};
   }
 
-  const TurningModes& modes_;
+  const TurningModes* modes_;
   double tolerance_;
   States states_;
   Index g_, kept_;
@@ -181,6 +247,8 @@ class Reduction {
   AngleHarmonics c_;
   double least_ = std::numeric_limits<double>::infinity();
   std::vector<double> sizes_;  ///< of the changes of X
+  bool is_slow_ = false;
+  Acceleration acceleration_;
   int n_steps_ = 0;
   std::optional<Reduced> outcome_;
 };
@@ -198,47 +266,59 @@ Eigen::MatrixXcd coupled(const TurningModes& modes, Index s, Eigen::MatrixXcd W)
   return from_real_pairs(modes.lambda, std::move(r));
 }
 
-/// Until each has its outcome. B is read once for all of them, which is what it costs.
-void solve(std::vector<Reduction>& all, const TurningModes& modes)
+/// A group of `reduced` at which the iteration is.
+struct Open {
+  std::size_t place;
+  Reduction reduction;
+};
+
+Index n_columns(const std::vector<Open>& open)
 {
-  for (;;) {
-    std::vector<Reduction*> open;
-    Index n_columns = 0;
-    for (Reduction& one : all)
-      if (!one.outcome()) {
-        open.push_back(&one);
-        n_columns += one.size();
-      }
-    if (open.empty()) return;
-    for (Index s = 0; s < modes.B.cols(); ++s) {
-      Eigen::MatrixXcd W(modes.size(), n_columns);
-      Index at = 0;
-      for (Reduction* one : open) {
-        one->put(s, W.middleCols(at, one->size()));
-        at += one->size();
-      }
-      const Eigen::MatrixXcd BW = coupled(modes, s, std::move(W));
-      at = 0;
-      for (Reduction* one : open) {
-        one->take(s, BW.middleCols(at, one->size()));
-        at += one->size();
-      }
-    }
-    for (Reduction* one : open) one->step();
-  }
+  Index n = 0;
+  for (const Open& one : open) n += one.reduction.size();
+  return n;
 }
 
-/// Performs the fixed-point iteration of `near_groups` for each of the disjoint `groups`.
+/// A step of each. B is read once for all of them, which is what it costs.
+void advance(std::vector<Open>& open, const TurningModes& modes)
+{
+  for (Index s = 0; s < modes.B.cols(); ++s) {
+    Eigen::MatrixXcd W(modes.size(), n_columns(open));
+    Index at = 0;
+    for (Open& one : open) {
+      one.reduction.put(s, W.middleCols(at, one.reduction.size()));
+      at += one.reduction.size();
+    }
+    const Eigen::MatrixXcd BW = coupled(modes, s, std::move(W));
+    at = 0;
+    for (Open& one : open) {
+      one.reduction.take(s, BW.middleCols(at, one.reduction.size()));
+      at += one.reduction.size();
+    }
+  }
+  for (Open& one : open) one.reduction.step();
+}
+
+/// Performs the fixed-point iteration of `near_groups` for each of the disjoint `groups`, a few at
+/// a time.
 /// @param tolerance  1/s
 std::vector<Reduced> reduced(const TurningModes& modes, double tolerance,
                              const std::vector<States>& groups)
 {
-  std::vector<Reduction> all;
-  for (const States& states : groups) all.emplace_back(modes, tolerance, states);
-  solve(all, modes);
-  std::vector<Reduced> results;
-  for (Reduction& one : all) results.push_back(std::move(*one.outcome()));
-  return results;
+  std::vector<Reduced> results(groups.size());
+  std::vector<Open> open;
+  for (std::size_t next = 0;;) {
+    while (next < groups.size() &&
+           (open.empty() || n_columns(open) + std::ssize(groups[next]) <= columns_iterated)) {
+      open.push_back({next, Reduction(modes, tolerance, groups[next])});
+      ++next;
+    }
+    if (open.empty()) return results;
+    advance(open, modes);
+    for (Open& one : open)
+      if (auto& outcome = one.reduction.outcome()) results[one.place] = std::move(*outcome);
+    std::erase_if(open, [](Open& one) { return one.reduction.outcome().has_value(); });
+  }
 }
 
 /// Two states whose coupling is above this part of their distance are in one group from the start.
@@ -317,26 +397,24 @@ struct SecondOrder {
 };
 
 /// Unites states that B couples by much of their distance, each harmonic by itself.
-/// @param c  harmonics of B
-SecondOrder unite_near(Sets& sets, const TurningModes& modes, const AngleHarmonics& c)
+SecondOrder unite_near(Sets& sets, const TurningModes& modes)
 {
   constexpr double of_next_order = 0.5;
   const Index m = modes.size();
   States all(static_cast<std::size_t>(m));
   std::iota(all.begin(), all.end(), Index{0});
   SecondOrder order{Eigen::VectorXcd::Zero(m), Eigen::VectorXd::Zero(m)};
-  const auto harmonic = [&](Index k) {
-    return coupling(modes, c.col(column_of(k, c.cols())).reshaped(m, m), all);
-  };
-  for (Index k = 1; k <= std::min(modes.highest, c.cols() / 2 - 1); ++k) {
-    const Eigen::MatrixXcd up = harmonic(k), down = harmonic(-k);
+  for (Index k = 1; k <= modes.highest; ++k) {
+    const Eigen::MatrixXcd B_k = modes.harmonic(k);
+    const Eigen::MatrixXcd up = coupling(modes, B_k, all),
+                           down = coupling(modes, B_k.conjugate(), all);
     const auto couple = [&](const Eigen::MatrixXcd& there, const Eigen::MatrixXcd& back,
                             Complex turned, Index i, Index j) {
       const Complex d = turned - modes.lambda[i] + modes.lambda[j];
-      if (i == j || std::abs(there(i, j)) <= near * std::abs(d)) {
-        const Complex shift = back(j, i) * there(i, j) / d;
+      if (i == j || std::norm(there(i, j)) <= near * near * std::norm(d)) {
+        const Complex shift = back(j, i) * there(i, j) * std::conj(d) / std::norm(d);
         order.shift[j] += shift;
-        order.doubt[j] += of_next_order * std::abs(shift);
+        order.doubt[j] += of_next_order * std::sqrt(std::norm(shift));
       } else {
         sets.unite({i, j});
       }
@@ -359,7 +437,7 @@ struct Estimates {
 
 /// The equations of a set by themselves, with the second order of all others in their diagonal.
 NearGroup equations_alone(const States& states, const Sets& sets, const TurningModes& modes,
-                          const AngleHarmonics& c, const SecondOrder& order)
+                          const SecondOrder& order)
 {
   constexpr double enough = 1.0;  // 1/s: to tell which of the sets count
   const auto g = std::ssize(states);
@@ -369,11 +447,12 @@ NearGroup equations_alone(const States& states, const Sets& sets, const TurningM
   closed.erase(std::unique(closed.begin(), closed.end()), closed.end());
   std::vector<Index> at;
   for (const Index i : states) at.push_back(std::ranges::lower_bound(closed, i) - closed.begin());
-  NearGroup group{states, true, AngleHarmonics(g * g, c.cols()), modes.highest, enough};
-  const Index m = modes.size();
-  for (Index column = 0; column < c.cols(); ++column) {
-    const Eigen::Map<const Eigen::MatrixXcd> B_k(c.col(column).data(), m, m);
-    group.F.col(column) = coupling(modes, B_k(closed, closed), closed)(at, at).reshaped();
+  const Index N = power_of_two(2 * modes.highest + 1);
+  NearGroup group{states, true, AngleHarmonics::Zero(g * g, N), modes.highest, enough};
+  for (Index k = 1; k <= modes.highest; ++k) {
+    const Eigen::MatrixXcd B_k = modes.harmonic(k)(closed, closed);
+    group.F.col(k) = coupling(modes, B_k, closed)(at, at).reshaped();
+    group.F.col(N - k) = coupling(modes, B_k.conjugate(), closed)(at, at).reshaped();
   }
   for (Index j = 0; j < g; ++j) {
     const Index i = states[static_cast<std::size_t>(j)];
@@ -383,25 +462,25 @@ NearGroup equations_alone(const States& states, const Sets& sets, const TurningM
 }
 
 Estimates estimates_of(const States& states, const Sets& sets, const TurningModes& modes,
-                       const AngleHarmonics& c, const SecondOrder& order)
+                       const SecondOrder& order)
 {
   constexpr Index large = 12;  // its equations take longer than they save
   Estimates found{(modes.lambda + order.shift)(states).real(), order.doubt(states).maxCoeff()};
   if (states.size() == 1) return found;
   if (std::ssize(states) > large) return {found.growth, std::numeric_limits<double>::infinity()};
   const GroupExponents alone =
-      group_exponents(equations_alone(states, sets, modes, c, order), modes.step);
+      group_exponents(equations_alone(states, sets, modes, order), modes.step);
   return {alone.lambda.real(), found.doubt + alone.error};
 }
 
 /// Marks, by their lowest states, the sets that may hold one of the n motions that grow most.
 std::vector<char> may_be_wanted(const Sets& sets, const TurningModes& modes,
-                                const AngleHarmonics& c, const SecondOrder& order, Index n)
+                                const SecondOrder& order, Index n)
 {
   std::vector<char> wanted(static_cast<std::size_t>(modes.size()), 0);
   std::vector<double> at_least, at_most;
   for (const Index set : sets.sets()) {
-    const Estimates of = estimates_of(sets.states(set), sets, modes, c, order);
+    const Estimates of = estimates_of(sets.states(set), sets, modes, order);
     for (const double growth : of.growth) at_least.push_back(growth - of.doubt);
     at_most.push_back(of.growth.maxCoeff() + of.doubt);
   }
@@ -423,11 +502,8 @@ std::vector<NearGroup> near_groups(const TurningModes& modes, double tolerance,
 {
   Sets sets(modes.lambda);
   std::vector<char> wanted(static_cast<std::size_t>(modes.size()), 1);
-  {
-    const AngleHarmonics c = harmonics_of(modes.B.cast<Complex>());
-    const SecondOrder order = unite_near(sets, modes, c);
-    if (n_least_stable) wanted = may_be_wanted(sets, modes, c, order, *n_least_stable);
-  }
+  const SecondOrder order = unite_near(sets, modes);
+  if (n_least_stable) wanted = may_be_wanted(sets, modes, order, *n_least_stable);
   const auto is_wanted = [&](Index set) {
     return std::ranges::any_of(sets.states(set),
                                [&](Index i) { return wanted[static_cast<std::size_t>(i)] != 0; });

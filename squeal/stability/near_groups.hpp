@@ -18,9 +18,15 @@ struct NearGroup {
   double error;          ///< error estimated from the last harmonics, 1/s
 };
 
+/// Columns of X for which `near_groups` iterates at a time, and the bytes that each takes for each
+/// state and angle, at most.
+inline constexpr Eigen::Index columns_iterated = 32;
+inline constexpr double bytes_iterated = 352.0;
+
 /// Splits the states into invariant groups. X solves the harmonic balance of
 ///   step dX/dphi = Lambda_q X - X Lambda_g + B_qg + B_qq X - X (B_gg + B_gq X)
-/// by a fixed-point iteration, in which each harmonic is divided by i k step - lambda_i + lambda_j.
+/// by a fixed-point iteration, in which each harmonic is divided by i k step - lambda_i + lambda_j,
+/// with Anderson's acceleration (Journal of the ACM 12, 1965, pages 547 to 560) where it is slow.
 /// If it does not converge, or needs too many harmonics for the error `tolerance` (1/s), the two
 /// states responsible are put into one group.
 /// @param n_least_stable  without it each state is in a group or in the mirror image of one; with

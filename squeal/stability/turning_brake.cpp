@@ -295,78 +295,149 @@ TurningModes turning_modes(const TurningHarmonics& harmonics, Index N)
 {
   const Index m = harmonics.A_0.rows(), n = m / 2;
   const int nu = std::max(1, harmonics.nu), highest = harmonics.highest / nu;
-  AngleHarmonics c = AngleHarmonics::Zero(n * m, N);
-  for (int k = 1; k <= highest; ++k) {
-    c.col(k) = harmonics.c.col(Index{k} * nu);
-    c.col(N - k) = c.col(k).conjugate();
-  }
-  const AngleSamples change = samples_of(std::move(c));
+  Eigen::MatrixXcd c(n * m, highest);
+  for (int k = 1; k <= highest; ++k) c.col(k - 1) = harmonics.c.col(Index{k} * nu);
+  const Eigen::MatrixXd change = samples_of_real(c, N);
   const Eigen::VectorXcd& lambda = harmonics.lambda;
   const Eigen::MatrixXd VP = to_real_pairs(lambda, harmonics.V.adjoint()).adjoint().real();
   const Eigen::MatrixXd left = to_real_pairs(lambda, harmonics.left_V).real();
-  TurningModes modes{nu * harmonics.speed, lambda, Eigen::MatrixXd(m * m, N), highest};
-  for (Index s = 0; s < N; ++s) {
-    const Eigen::MatrixXd A = change.col(s).real().reshaped(n, m);
-    Eigen::Map<Eigen::MatrixXd>(modes.B.col(s).data(), m, m).noalias() = left * (A * VP);
+  TurningModes modes{nu * harmonics.speed, lambda, Eigen::MatrixXd(m * m, N), highest,
+                     Eigen::MatrixXcd(m * m, highest)};
+  const auto turned = [&](const auto& A) -> Eigen::MatrixXd { return left * (A * VP); };
+  for (Index s = 0; s < N; ++s) modes.B.col(s) = turned(change.col(s).reshaped(n, m)).reshaped();
+  for (Index k = 0; k < highest; ++k) {
+    modes.B_k.col(k).real() = turned(c.col(k).real().reshaped(n, m)).reshaped();
+    modes.B_k.col(k).imag() = turned(c.col(k).imag().reshaped(n, m)).reshaped();
   }
   return modes;
 }
 
+namespace {
+
+/// The first rows of conjugate pairs.
+std::vector<Index> pairs_of(const Eigen::VectorXcd& lambda)
+{
+  std::vector<Index> first;
+  for (Index i = 0; i + 1 < lambda.size(); ++i)
+    if (lambda[i].imag() != 0.0) first.push_back(i++);
+  return first;
+}
+
+}  // namespace
+
 Eigen::MatrixXcd from_real_pairs(const Eigen::VectorXcd& lambda, Eigen::MatrixXcd r)
 {
-  const Complex i(0.0, 1.0);
-  for (Index row = 0; row + 1 < lambda.size(); ++row) {
-    if (lambda[row].imag() == 0.0) continue;
-    const Eigen::RowVectorXcd a = r.row(row), b = i * r.row(row + 1);
-    r.row(row) = std::sqrt(0.5) * (a + b);
-    r.row(row + 1) = std::sqrt(0.5) * (a - b);
-    ++row;
-  }
+  const double half = std::sqrt(0.5);
+  const std::vector<Index> pairs = pairs_of(lambda);
+  for (Index j = 0; j < r.cols(); ++j)
+    for (const Index i : pairs) {
+      const Complex a = half * r(i, j), b = half * r(i + 1, j);
+      const Complex turned(-b.imag(), b.real());
+      r(i, j) = a + turned;
+      r(i + 1, j) = a - turned;
+    }
   return r;
 }
 
 Eigen::MatrixXcd to_real_pairs(const Eigen::VectorXcd& lambda, Eigen::MatrixXcd y)
 {
-  const Complex i(0.0, 1.0);
-  for (Index row = 0; row + 1 < lambda.size(); ++row) {
-    if (lambda[row].imag() == 0.0) continue;
-    const Eigen::RowVectorXcd a = y.row(row), b = y.row(row + 1);
-    y.row(row) = std::sqrt(0.5) * (a + b);
-    y.row(row + 1) = std::sqrt(0.5) * i * (b - a);
-    ++row;
-  }
+  const double half = std::sqrt(0.5);
+  const std::vector<Index> pairs = pairs_of(lambda);
+  for (Index j = 0; j < y.cols(); ++j)
+    for (const Index i : pairs) {
+      const Complex a = half * y(i, j), b = half * y(i + 1, j), between = b - a;
+      y(i, j) = a + b;
+      y(i + 1, j) = Complex(-between.imag(), between.real());
+    }
   return y;
 }
 
 namespace {
 
-void reverse_bits(Eigen::MatrixXcd& f)
+/// Rows that are transformed at a time: with all columns they stay in a second-level cache.
+constexpr Index rows_in_cache = 32;
+
+/// The places of all columns with the bits of their numbers reversed.
+std::vector<Index> reversed_bits(Index N)
 {
-  const Eigen::Index N = f.cols();
-  for (Eigen::Index i = 1, j = 0; i < N; ++i) {
-    Eigen::Index bit = N / 2;
+  std::vector<Index> place(static_cast<std::size_t>(N), 0);
+  for (std::size_t i = 1, j = 0; i < place.size(); ++i) {
+    std::size_t bit = place.size() / 2;
     for (; j & bit; bit /= 2) j ^= bit;
     j ^= bit;
-    if (i < j) f.col(i).swap(f.col(j));
+    place[i] = static_cast<Index>(j);
   }
+  return place;
 }
 
-/// sum_s f_s exp(sign 2 pi i k s / N) for all k at once (Cooley and Tukey).
+/// A few rows of all columns, real and imaginary parts apart.
+struct Rows {
+  using Part = Eigen::Matrix<double, rows_in_cache, Eigen::Dynamic>;
+  Part re, im;
+
+  explicit Rows(Index N) : re(Part::Zero(rows_in_cache, N)), im(re) {}
+
+  /// a + factor b and a - factor b in the place of the columns a and b.
+  void butterfly(Index a, Index b, Complex factor)
+  {
+    using Column = Eigen::Array<double, rows_in_cache, 1>;
+    const double c = factor.real(), s = factor.imag();
+    const Column b_re = c * re.col(b).array() - s * im.col(b).array();
+    const Column b_im = c * im.col(b).array() + s * re.col(b).array();
+    re.col(b) = re.col(a).array() - b_re;
+    im.col(b) = im.col(a).array() - b_im;
+    re.col(a).array() += b_re;
+    im.col(a).array() += b_im;
+  }
+};
+
+/// sum_s f_s exp(sign 2 pi i k s / N) for all k at once (Cooley and Tukey), of a few rows at a
+/// time.
+class Transform {
+ public:
+  Transform(Index N, double sign) : place_(reversed_bits(N)), factor_(std::max<Index>(N / 2, 1))
+  {
+    assert(N > 0 && (N & (N - 1)) == 0);
+    for (Index k = 0; k < N / 2; ++k)
+      factor_[k] = std::polar(1.0, sign * 2.0 * pi * double(k) / double(N));
+  }
+
+  Index place(Index s) const { return place_[static_cast<std::size_t>(s)]; }
+
+  /// @param part  column s holds the sample place(s)
+  void operator()(Rows& part) const
+  {
+    const Index N = std::ssize(place_);
+    for (Index half = 1; half < N; half *= 2)
+      for (Index first = 0; first < N; first += 2 * half)
+        for (Index k = 0; k < half; ++k)
+          part.butterfly(first + k, first + k + half, factor_[k * (N / (2 * half))]);
+  }
+
+ private:
+  std::vector<Index> place_;
+  Eigen::VectorXcd factor_;
+};
+
 Eigen::MatrixXcd transformed(Eigen::MatrixXcd f, double sign)
 {
-  const Eigen::Index N = f.cols();
-  assert(N > 0 && (N & (N - 1)) == 0);
-  reverse_bits(f);
-  Eigen::VectorXcd turned(f.rows());
-  for (Eigen::Index half = 1; half < N; half *= 2)
-    for (Eigen::Index k = 0; k < half; ++k) {
-      const Complex factor = std::polar(1.0, sign * std::numbers::pi * double(k) / double(half));
-      for (Eigen::Index i = k; i < N; i += 2 * half) {
-        turned.noalias() = factor * f.col(i + half);
-        f.col(i + half) = f.col(i) - turned;
-        f.col(i) += turned;
-      }
+  const Index N = f.cols();
+  const Transform transform(N, sign);
+  Rows part(N);
+  for (Index row = 0; row < f.rows(); row += rows_in_cache) {
+    const Index n = std::min(rows_in_cache, f.rows() - row);
+    for (Index s = 0; s < N; ++s) {
+      const auto from = f.col(transform.place(s)).segment(row, n);
+      part.re.col(s).head(n) = from.real();
+      part.im.col(s).head(n) = from.imag();
     }
+    transform(part);
+    for (Index s = 0; s < N; ++s) {
+      auto to = f.col(s).segment(row, n);
+      to.real() = part.re.col(s).head(n);
+      to.imag() = part.im.col(s).head(n);
+    }
+  }
   return f;
 }
 
@@ -382,6 +453,35 @@ AngleHarmonics harmonics_of(AngleSamples f)
 AngleSamples samples_of(AngleHarmonics c)
 {
   return transformed(std::move(c), 1.0);
+}
+
+Eigen::MatrixXd samples_of_real(const Eigen::MatrixXcd& c, Index N)
+{
+  const Transform transform(N, 1.0);
+  Eigen::MatrixXd f(c.rows(), N);
+  Rows part(N);
+  for (Index row = 0; row < c.rows(); row += 2 * rows_in_cache) {
+    // The series of two rows, f_1 + i f_2, in one.
+    const Index n = std::min(rows_in_cache, c.rows() - row);
+    const Index n_2 = std::clamp<Index>(c.rows() - row - n, 0, rows_in_cache);
+    part.re.setZero();
+    part.im.setZero();
+    for (Index s = 0; s < N; ++s) {
+      const Index k = transform.place(s), order = std::min(k, N - k);
+      if (order == 0 || order > c.cols()) continue;
+      const double sign = k == order ? 1.0 : -1.0;
+      const auto first = c.col(order - 1).segment(row, n);
+      const auto second = c.col(order - 1).segment(row + n, n_2);
+      part.re.col(s).head(n) = first.real();
+      part.im.col(s).head(n) = sign * first.imag();
+      part.re.col(s).head(n_2) -= sign * second.imag();
+      part.im.col(s).head(n_2) += second.real();
+    }
+    transform(part);
+    f.middleRows(row, n) = part.re.topRows(n);
+    f.middleRows(row + n, n_2) = part.im.topRows(n_2);
+  }
+  return f;
 }
 
 Eigen::Index power_of_two(Eigen::Index n)

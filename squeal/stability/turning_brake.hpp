@@ -63,6 +63,9 @@ using AngleHarmonics = Eigen::MatrixXcd;
 AngleHarmonics harmonics_of(AngleSamples f);
 /// The samples of a Fourier series.
 AngleSamples samples_of(AngleHarmonics c);
+/// The samples of a real one.
+/// @param c  [n x K] the orders 1 to K < N / 2; the mean is zero
+Eigen::MatrixXd samples_of_real(const Eigen::MatrixXcd& c, Eigen::Index N);
 
 /// The order k of a column among N harmonics, -N / 2 < k <= N / 2.
 inline Eigen::Index order_of(Eigen::Index column, Eigen::Index N)
@@ -110,12 +113,18 @@ struct TurningModes {
   Eigen::VectorXcd lambda;  ///< [m] 1/s, the two of a conjugate pair adjacent
   Eigen::MatrixXd B;        ///< [m m x N] 1/s, each column a matrix, over one period 2 pi / nu
   Eigen::Index highest;     ///< highest harmonic of B, in multiples of nu
+  Eigen::MatrixXcd B_k;     ///< [m m x highest] 1/s, harmonics of B from the first on
 
   Eigen::Index size() const { return lambda.size(); }  ///< m
   /// B at the sample s.
   Eigen::Map<const Eigen::MatrixXd> at(Eigen::Index s) const
   {
     return {B.col(s).data(), size(), size()};
+  }
+  /// That of order k > 0 of B; B is real, so that of -k is its conjugate.
+  Eigen::Map<const Eigen::MatrixXcd> harmonic(Eigen::Index k) const
+  {
+    return {B_k.col(k - 1).data(), size(), size()};
   }
 };
 

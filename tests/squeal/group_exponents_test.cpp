@@ -69,5 +69,59 @@ TEST(GroupExponents, AreRefusedWhereTheirStepsWouldFillTheMemory)
   }
 }
 
+/// Three oscillators. The first is coupled weakly to the second and that strongly to the third,
+/// with the angle of the rotation: these two resonate with the sixth and seventh harmonic of the
+/// first.
+TurningModes three_oscillators()
+{
+  constexpr int N = 64;
+  Eigen::VectorXcd lambda(6);
+  lambda << Complex(-1.0, 1003.0), Complex(-1.0, -1003.0), Complex(-50.0, 1600.0),
+      Complex(-50.0, -1600.0), Complex(-52.0, 1700.0), Complex(-52.0, -1700.0);
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(6, 6);
+  C.block<2, 2>(0, 2) << 12.0, 3.0, -2.0, 9.0;
+  C.block<2, 2>(2, 0) << 8.0, -4.0, 5.0, 11.0;
+  C.block<2, 2>(2, 4) << 80.0, 10.0, -20.0, 70.0;
+  C.block<2, 2>(4, 2) << 90.0, -20.0, 10.0, 75.0;
+  TurningModes modes{100.0, lambda, Eigen::MatrixXd(36, N), 1, C.reshaped().cast<Complex>()};
+  for (int s = 0; s < N; ++s)
+    modes.B.col(s) = 2.0 * std::cos(2.0 * std::numbers::pi * s / N) * C.reshaped();
+  return modes;
+}
+
+/// The eigenvalue of Hill's matrix of all harmonics up to 30 that is nearest to `to`.
+Complex by_hills_matrix(const TurningModes& modes, Complex to)
+{
+  constexpr int K = 30;
+  const Eigen::Index m = modes.size(), n = (2 * K + 1) * m;
+  const Eigen::MatrixXcd P = from_real_pairs(modes.lambda, Eigen::MatrixXcd::Identity(m, m));
+  const Eigen::MatrixXcd C = P * modes.harmonic(1) * P.adjoint();
+  Eigen::MatrixXcd A = Eigen::MatrixXcd::Zero(n, n);
+  for (int k = -K; k <= K; ++k) {
+    const Eigen::Index at = (k + K) * m;
+    A.block(at, at, m, m).diagonal() = modes.lambda.array() - Complex(0.0, k * modes.step);
+    if (k == K) break;
+    A.block(at, at + m, m, m) = C;
+    A.block(at + m, at, m, m) = C;
+  }
+  const Eigen::VectorXcd all = A.eigenvalues();
+  Eigen::Index nearest = 0;
+  (all.array() - to).abs().minCoeff(&nearest);
+  return all[nearest];
+}
+
+TEST(NearGroups, StayAloneBesideStatesThatAreNearEachOther)
+{
+  const TurningModes modes = three_oscillators();
+  const auto groups = near_groups(modes, 1e-6);
+  const auto is_first = [](const NearGroup& group) { return group.states.front() == 0; };
+  const auto first = std::ranges::find_if(groups, is_first);
+  ASSERT_NE(first, groups.end());
+  EXPECT_EQ(first->states.size(), 1);
+  const Complex lambda = group_exponents(*first, modes.step).lambda[0];
+  EXPECT_LT(std::abs(lambda - by_hills_matrix(modes, lambda)), 1e-6);
+  EXPECT_GT(std::abs(lambda - modes.lambda[0]), 0.01);
+}
+
 }  // namespace
 }  // namespace chladni::squeal
