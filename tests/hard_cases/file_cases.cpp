@@ -103,8 +103,9 @@ struct Contents {
   std::function<int(const std::string& path)> read;
 };
 
-/// Kills a writer that writes both in turn, at random moments; how often the file is neither, and
-/// one more for each content that was never found.
+/// Kills a writer that writes both in turn, at random moments, later and later where a busy machine
+/// lets it finish neither; how often the file is neither, and one more for each content that was
+/// never found.
 double half_files(int n_kills, const Contents& contents)
 {
   const ScratchFolder folder;
@@ -114,11 +115,11 @@ double half_files(int n_kills, const Contents& contents)
   std::uniform_int_distribution<int> microseconds(5000, 25000);
   double half = 0.0;
   std::set<int> found;
-  for (int i = 0; i < n_kills; ++i) {
+  for (int i = 0; i < n_kills || (i < 4 * n_kills && found.size() < 2); ++i) {
     const pid_t writer = fork();
     if (writer == 0)
       for (int which = i % 2;; which = 1 - which) contents.write(path, which);
-    std::this_thread::sleep_for(std::chrono::microseconds(microseconds(generator)));
+    std::this_thread::sleep_for((1 + i / n_kills) * std::chrono::microseconds(microseconds(generator)));
     kill(writer, SIGKILL);
     waitpid(writer, nullptr, 0);
     try {
