@@ -119,7 +119,8 @@ double half_files(int n_kills, const Contents& contents)
     const pid_t writer = fork();
     if (writer == 0)
       for (int which = i % 2;; which = 1 - which) contents.write(path, which);
-    std::this_thread::sleep_for((1 + i / n_kills) * std::chrono::microseconds(microseconds(generator)));
+    std::this_thread::sleep_for((1 + i / n_kills) *
+                                std::chrono::microseconds(microseconds(generator)));
     kill(writer, SIGKILL);
     waitpid(writer, nullptr, 0);
     try {
