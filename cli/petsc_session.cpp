@@ -29,11 +29,14 @@ bool is_started_by_mpirun()
 
 /// Open MPI starts a daemon for a process that no mpirun started, and leaves it behind when that
 /// process is killed. One process needs none. It makes a folder for those of a user, too, which one
-/// process may remove while another begins, and which nobody needs who shares no memory.
-void start_no_daemon()
+/// process may remove while another begins, and which nobody needs who shares no memory. And it
+/// loads what it knows of networks, of which libpsm2 sleeps for 0.2 s to learn how fast a clock is.
+void start_alone()
 {
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-  if (!is_started_by_mpirun()) setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+  if (is_started_by_mpirun()) return;
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+  setenv("OMPI_MCA_pml", "ob1", 0);
 }
 
 /// How options begin that PETSc reads when it ends.
@@ -64,7 +67,7 @@ std::vector<std::string> unused_options(const std::vector<std::string>& options)
 
 PetscSession::PetscSession(const std::vector<std::string>& options)
 {
-  start_no_daemon();
+  start_alone();
   std::vector<std::string> words = options;
   // A folder must not choose solvers, or load libraries, because somebody works in it.
   words.insert(words.begin(), {"chladni", "-skip_petscrc"});
