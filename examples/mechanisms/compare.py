@@ -1,9 +1,9 @@
 """Compares what makes one and the same disc squeal: coupled modes, or friction that falls with speed.
 
-Usage: compare.py SQUEAL_PROGRAM OUTPUT_DIR [FIGURE_DIR]
+Usage: compare.py SQUEAL_PROGRAM OUTPUT_DIR [FIGURE_DIR [SECONDS]]
 
 Runs the rigid disc of ../rigid_disc with three friction laws, and draws the largest growth rate over
-the rotation speed and the motion of the pad at the end of a transient at a low and at a high speed.
+the rotation speed and the motion of the pad in transients of so many seconds (12) at a low and at a high speed.
 """
 
 import json
@@ -69,13 +69,13 @@ def growth_over_speed(program, folder, i, law):
     )
 
 
-def final_motion(program, folder, i, case):
-    law, speed = case
+def motion(program, folder, i, case):
+    law, speed, seconds = case
     changes = {
         "friction": law,
         "contact": '"unilateral"',
         "analyses": '["transient"]',
-        "transient": f"{{ speed_rad_s = {speed}, duration_s = 12.0, "
+        "transient": f"{{ speed_rad_s = {speed}, duration_s = {seconds}, "
         "initial_pad_displacement = 3e-4, steps_per_period = 40 }",
     }
     _, file = run(program, folder, f"motion_{i}_{speed:.0f}", changes)
@@ -84,14 +84,14 @@ def final_motion(program, folder, i, case):
         return envelope["t"][:], envelope["pad_velocity"][:]
 
 
-def main(program, folder, figure_folder):
+def main(program, folder, figure_folder, seconds):
     folder.mkdir(parents=True, exist_ok=True)
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(11, 3.2), layout="constrained")
     for i, (name, law) in enumerate(LAWS.items()):
         speeds, growth = growth_over_speed(program, folder, i, law)
         left.plot(speeds, growth, color=COLOURS[i], label=name)
         for ax, speed in ((middle, LOW), (right, HIGH)):
-            t, v = final_motion(program, folder, i, (law, speed))
+            t, v = motion(program, folder, i, (law, speed, seconds))
             ax.semilogy(t, v, color=COLOURS[i])
     left.axhline(0.0, color="#666666", lw=0.8)
     left.set(xlabel="speed, rad/s", ylabel="largest growth rate, 1/s", ylim=(-2.0, 1.0))
@@ -107,4 +107,5 @@ def main(program, folder, figure_folder):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3]) if len(sys.argv) > 3 else None)
+    main(sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3]) if len(sys.argv) > 3 else None,
+         float(sys.argv[4]) if len(sys.argv) > 4 else 12.0)  # fmt: skip

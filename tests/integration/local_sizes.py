@@ -6,12 +6,13 @@ sizes. Meshes of one element size that keep the same error have more DOFs.
 Usage: local_sizes.py PROGRAM_DIR
 """
 
+import json
 import re
 import sys
 import tempfile
 from pathlib import Path
 
-from running import run, summary
+from running import run
 
 UP_TO_HZ = 2500.0
 COUNT = 12
@@ -48,9 +49,10 @@ count = {count}
 
 
 def modes(programs, folder, mesh="", accuracy=""):
+    """The summary, and what is printed."""
     (folder / "scene.toml").write_text(SCENE.format(accuracy=accuracy, mesh=mesh, count=COUNT))
-    command = [programs / "chladni", "modes", folder / "scene.toml", "--output", folder]
-    return summary(*command), command
+    said = run(programs / "chladni", "modes", folder / "scene.toml", "--output", folder, "--json", folder / "found.json")
+    return json.loads((folder / "found.json").read_text()), said
 
 
 def error_of(found, exact):
@@ -75,8 +77,7 @@ def main(programs):
         (folder / "l.geo").write_text(GEO)
         exact = modes(programs, folder, "element_order = 3\nparameters = { size = 0.02, corner = 2e-4 }")[0]["frequencies_Hz"]
         print(f"{sum(e < UP_TO_HZ for e in exact)} modes in the range")
-        found, command = modes(programs, folder, accuracy=f"accuracy = {{ error = {ERROR}, up_to_Hz = {UP_TO_HZ} }}")
-        said = run(*command)
+        found, said = modes(programs, folder, accuracy=f"accuracy = {{ error = {ERROR}, up_to_Hz = {UP_TO_HZ} }}")
         error = error_of(found, exact)
         note = re.search(r"accuracy .*", said)
         print(f"chosen: error {error:.1e}, {found['n_dofs']} DOFs: {note and note[0]}")

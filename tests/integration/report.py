@@ -10,7 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from running import start
+from running import changed, start
 
 ROOT = Path(__file__).parents[2]
 SQUEAL = """
@@ -187,7 +187,9 @@ def other_pages(programs, folder):
     beam = ROOT / "examples/beam/supported.toml"
     run(programs / "chladni", "run", beam, "--output", folder / "beam")
     run(programs / "chladni", "report", beam, "--output", folder / "beam")
-    rigid = ROOT / "examples/rigid_disc/scene.toml"
+    rigid = folder / "rigid.toml"
+    rigid.write_text(changed((ROOT / "examples/rigid_disc/scene.toml").read_text(),
+                             ("duration_s = 6.0", "duration_s = 1.0"), ("duration_s = 10.0", "duration_s = 2.0")))  # fmt: skip
     run(programs / "squeal", "run", rigid, "--output", folder / "rigid")
     run(programs / "squeal", "report", rigid, "--output", folder / "rigid")
     return [next((folder / name).glob("*.report.html")) for name in ("beam", "rigid")]

@@ -220,7 +220,8 @@ def files_of(block, folder):
              f"{name}.cdb": (ansys_file(block), "mat_1", "ROOT")}  # fmt: skip
     for kind in ABAQUS_TYPES[block.shape, block.order]:
         texts[f"{name}_{kind}.inp"] = abaqus_file(block, kind), "BODY", "ROOT"
-    for width in (0, 8, 16):
+    # Widths of fields are of cards, and not of shapes: cards of one line and of several.
+    for width in (0, 8, 16) if (block.shape, block.order) in (("tet", 1), ("hex", 2)) else (0,):
         texts[f"{name}_{width}.bdf"] = nastran_file(block, width), "psolid_7", "spc_1_123"
     for file, (text, _, _) in texts.items():
         (folder / file).write_text(text)
@@ -229,7 +230,8 @@ def files_of(block, folder):
 
 
 def formats(programs, folder):
-    """The frequencies of one block are those of its .msh, whatever the format, and with the scene that is made of a deck."""
+    """The frequencies of one block are those of its .msh, whatever the format, and, of order 2, with the scene that is made of
+    a deck."""
     for shape in ("tet", "wedge", "hex"):
         for order in (1, 2):
             files = files_of(Block(shape, order), folder)
@@ -238,7 +240,7 @@ def formats(programs, folder):
                 scene = folder / f"{file}.toml"
                 scene.write_text(OF_A_FILE.format(file=file, body=body, root=root))
                 scenes = [scene]
-                if file.endswith((f"{ABAQUS_TYPES[shape, order][0]}.inp", "_0.bdf", ".cdb")):
+                if order == 2 and file.endswith((f"{ABAQUS_TYPES[shape, order][0]}.inp", "_0.bdf", ".cdb")):
                     scenes.append(folder / f"{file}.imported.toml")
                     run(programs / "chladni", "import", folder / file, "--length-unit", "mm", "--output", scenes[-1])
                 for one in scenes:

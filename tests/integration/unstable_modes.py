@@ -3,13 +3,14 @@
 Usage: unstable_modes.py PROGRAM_DIR [CHROMIUM]
 """
 
+import json
 import re
 import sys
 import tempfile
 from pathlib import Path
 
 from report import browse, content_of, draw
-from running import changed, run, summary
+from running import changed, run
 
 DATA = Path(__file__).parents[1] / "data"
 BRAKE = """
@@ -119,8 +120,8 @@ def main(programs, chromium=None):
         text = (DATA / "coarse_disc.toml").read_text()
         scene.write_text(changed(text, *FINE) + BRAKE)
         run(programs / "chladni", "run", scene, "--output", name)
-        said = run(programs / "squeal", "run", scene, "--output", name)
-        found = summary(programs / "squeal", "run", scene, "--output", name)
+        said = run(programs / "squeal", "run", scene, "--output", name, "--json", Path(name) / "found.json")
+        found = json.loads((Path(name) / "found.json").read_text())
         unstable = check_json(found)
         check_branch(found)
         check_direct(found, said)
