@@ -53,7 +53,7 @@ class Flexibility {
   std::vector<linear::DecoupledPart> parts() const;
   /// [n x r] rigid motions in all DOFs, R^T M R = I.
   Mat R() const { return R_; }
-  /// Number of elastic modes.
+  /// Number of elastic modes, and of those of motions without mass.
   PetscInt n_elastic() const { return n_elastic_; }
 
  private:
@@ -367,6 +367,11 @@ linear::PartedLanczos parted(const Flexibility& flexibility, Mat M, const std::s
 ElasticPairs elastic_pairs(const WholeSystem& body, const Flexibility& flexibility,
                            const ReduceOptions& wanted)
 {
+  if (wanted.modes && *wanted.modes > flexibility.n_elastic()) {
+    throw Error(fmt::format(
+        "mixed_interface_modes: {} modes asked of a body that has {} at most: ask for fewer",
+        *wanted.modes, flexibility.n_elastic()));
+  }
   linear::PartedLanczos lanczos = parted(flexibility, body.M, body.K_ss.options().scratch);
   if (wanted.modes)
     lanczos.converge(*wanted.modes + 2);
