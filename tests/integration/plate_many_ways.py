@@ -16,7 +16,7 @@ from running import run, start, summary
 N_X, N_Y, STEP, THICKNESS = 6, 4, 0.2, 0.01  # m
 YOUNG, POISSON, DENSITY = 2.07e11, 0.29, 7820.0
 FIRST = [5.9607, 20.3066, 39.5107, 71.7693, 99.861, 128.6137]  # Hz, to the digits that are written
-COUNT = 24
+COUNT = 16
 
 
 def small(value):
