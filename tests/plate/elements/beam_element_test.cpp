@@ -190,6 +190,29 @@ VectorXd frequencies_of_10_m(const BeamSection& s, Index n_elements)
   return testing::simply_supported_frequencies(s, {.length = 10.0, .order = 1, .n = n_elements});
 }
 
+TEST(TimoshenkoBeam, BendsInItsDeepPlaneAsOneThatIsDeepInBoth)
+{
+  // A flat bar: the shapes are those of the plane where shear counts most.
+  for (const Index order : {2, 3, 4}) {
+    BeamSection flat = aligned(BeamTheory::timoshenko);
+    flat.I_z = 1e-6 * flat.I_y;
+    BeamSection deep = flat;
+    deep.I_z = flat.I_y;
+    const NodeVectors x = line({0, 0, 0}, {0.1, 0, 0}, order);
+    std::vector<Index> of_plane;
+    for (Index i = 0; i <= order; ++i) of_plane.insert(of_plane.end(), {6 * i + 2, 6 * i + 4});
+    const MatrixXd K = beam_matrices(x, flat).K(of_plane, of_plane);
+    const MatrixXd K_deep = beam_matrices(x, deep).K(of_plane, of_plane);
+    EXPECT_LT((K - K_deep).norm(), 1e-12 * K_deep.norm()) << order;  // round-off
+    std::swap(flat.I_y, flat.I_z);                                   // and the other way round
+    of_plane.clear();
+    for (Index i = 0; i <= order; ++i) of_plane.insert(of_plane.end(), {6 * i + 1, 6 * i + 5});
+    const MatrixXd K_swapped = beam_matrices(x, flat).K(of_plane, of_plane);
+    const MatrixXd K_both = beam_matrices(x, deep).K(of_plane, of_plane);
+    EXPECT_LT((K_swapped - K_both).norm(), 1e-12 * K_both.norm()) << order;
+  }
+}
+
 TEST(TimoshenkoBeam, ConvergesToTheFrequenciesOfTheDeepSimplySupportedBeam)
 {
   BeamSection s = testing::deep_beam();

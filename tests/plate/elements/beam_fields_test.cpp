@@ -298,6 +298,9 @@ TEST(NodeAxes, FollowACurvedLineAndStaySquareToItsPlaneWhereNothingIsSaid)
   }
   EXPECT_LT((axes[0].row(2) - axes[2].row(2)).norm(), 1e-14);
   EXPECT_NEAR(axes[1].row(0).dot(Eigen::RowVector3d(-r, 0.0, r)), 1.0, 1e-14);
+  const NodeVectors elsewhere = x.rowwise() + Eigen::RowVector3d(3.0, -2.0, 0.5);
+  const std::vector<Matrix3d> there = node_axes(elsewhere, round);
+  for (std::size_t i = 0; i < axes.size(); ++i) EXPECT_LT((there[i] - axes[i]).norm(), 1e-14) << i;
 }
 
 }  // namespace

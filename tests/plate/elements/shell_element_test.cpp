@@ -59,6 +59,41 @@ TEST_P(ShellElement, TurnsWithTheFrame)
   EXPECT_LT((T * here.M * T.transpose() - there.M).norm(), 1e-12 * here.M.norm());
 }
 
+/// The numbers of the lattice nodes when the next corner counts as the first one.
+std::vector<Eigen::Index> numbers_from_next_corner(Shape shape, int order)
+{
+  const Eigen::MatrixX2d P = testing::lattice(shape, order);
+  std::vector<Eigen::Index> numbers;
+  for (const Eigen::RowVector2d& p : P.rowwise()) {
+    const Eigen::RowVector2d from = shape == Shape::triangle
+                                        ? Eigen::RowVector2d(1.0 - p[0] - p[1], p[0])
+                                        : Eigen::RowVector2d(-p[1], p[0]);
+    Eigen::Index number = 0;
+    (P.rowwise() - from).rowwise().norm().minCoeff(&number);
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+TEST_P(ShellElement, HasTheSameEnergyWhicheverCornerIsTheFirst)
+{
+  // Of a thin flat parallelogram or triangle, where the points of a rule, which are not those of
+  // the next corner, integrate exactly. A thick one is integrated less, by a part of (t /
+  // length)^2.
+  const Eigen::MatrixX2d P = testing::lattice(shape(), order());
+  ShellNodes nodes{.x = NodeVectors::Zero(P.rows(), 3), .D = NodeVectors::Zero(P.rows(), 3)};
+  nodes.x.leftCols<2>() = P * Eigen::Matrix2d{{1.0, 0.2}, {0.3, 0.8}};
+  nodes.D.col(2).setConstant(1e-5);
+  const std::vector<Eigen::Index> numbers = numbers_from_next_corner(shape(), order());
+  const ShellNodes renumbered{.x = nodes.x(numbers, Eigen::all), .D = nodes.D(numbers, Eigen::all)};
+  std::vector<Eigen::Index> dofs;
+  for (const Eigen::Index number : numbers)
+    for (Eigen::Index i = 0; i < 6; ++i) dofs.push_back(6 * number + i);
+  const ElementMatrices here = matrices(nodes), there = matrices(renumbered);
+  EXPECT_LT((here.K(dofs, dofs) - there.K).norm(), 1e-9 * here.K.norm());
+  EXPECT_LT((here.M(dofs, dofs) - there.M).norm(), 1e-12 * here.M.norm());  // round-off
+}
+
 TEST_P(ShellElement, HasTheMassAndInertiaOfAFlatPlate)
 {
   const Eigen::MatrixX2d P = testing::lattice(shape(), order());
@@ -112,6 +147,18 @@ TEST_P(PlaneElement, IsTheCurvedOneWhereThatIsFlat)
     EXPECT_LT((A.K - B.K).cwiseAbs().maxCoeff(), 1e-8 * A.K.cwiseAbs().maxCoeff());
     EXPECT_LT((A.M - B.M).cwiseAbs().maxCoeff(), 1e-8 * A.M.cwiseAbs().maxCoeff());
   }
+}
+
+TEST_P(PlaneElement, FeelsNoForceInRigidMotion)
+{
+  // That of drilling is the smallest of all forces: 1e-8 of the largest.
+  const Eigen::MatrixX2d P = testing::lattice(Shape::quadrilateral, GetParam());
+  ShellNodes flat{.x = NodeVectors::Zero(P.rows(), 3), .D = NodeVectors::Zero(P.rows(), 3)};
+  for (Eigen::Index k = 0; k < P.rows(); ++k)
+    flat.x.row(k) << P(k, 0) + 0.2 * P(k, 0) * P(k, 1), 0.8 * P(k, 1), 0.0;
+  flat.D.col(2).setConstant(0.15);
+  const MatrixXd K = shell_matrices(Shape::quadrilateral, GetParam(), flat, steel_like).K;
+  EXPECT_LT((K * rigid_motions(flat.x)).cwiseAbs().maxCoeff(), 1e-13 * K.cwiseAbs().maxCoeff());
 }
 
 INSTANTIATE_TEST_SUITE_P(Orders, PlaneElement, ::testing::Values(2, 3, 4));
