@@ -250,6 +250,30 @@ TEST(CountModes, FindsTheModeThatIsMissing)
   EXPECT_LT(gapped.complete.sigma, 7.0);
 }
 
+TEST(CountModes, BoundsTheFirstValuesByACountBelowTheOneThatIsBadlyFound)
+{
+  // The sixth value, whose residual is large, might as well be any of those before it, unless the
+  // three below the widest gap are known to be all that there are.
+  const std::vector<double> full = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 20.0};
+  const auto found =
+      count_modes({.lambda = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0},
+                   .residuals = diagonal_matrix({1e-8, 1e-8, 1e-8, 1e-8, 1e-8, 0.2}),
+                   .n_zero = 0,
+                   .comm = PETSC_COMM_SELF},
+                  [&](double sigma) {
+                    return static_cast<int>(std::ranges::lower_bound(full, sigma) - full.begin());
+                  });
+  EXPECT_EQ(found.complete.expected, 6);
+  ASSERT_EQ(found.bounds.size(), 6u);
+  // Between 3 and what 4 may be at least, 4 / (1 + 1e-4).
+  const double sigma = std::sqrt(12.0 / (1.0 + 1e-4));
+  for (int i = 0; i < 3; ++i) {
+    const double temple = 1e-8 / (1.0 - (i + 1.0) / sigma);
+    EXPECT_NEAR(found.bounds[std::size_t(i)], temple, 1e-4 * temple) << i;
+  }
+  EXPECT_GT(found.bounds[5], 0.2);
+}
+
 TEST(CountModes, CountsRigidMotionsAsFound)
 {
   const auto all = count_modes(

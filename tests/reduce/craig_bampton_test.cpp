@@ -423,5 +423,20 @@ TEST(ProjectDamping, IsTheTripleProductWithTheBasis)
   EXPECT_GT(std::abs(C_r(2, 3) - C_r(3, 2)), 1e-4);  // the gyroscopic part is there
 }
 
+TEST(ProjectForms, AreTheTripleProductsWithTheBasis)
+{
+  const Reduction r;
+  const CraigBamptonBasis Q_CB = craig_bampton(r, 6);
+  const petsc::Matrix C = dampers();
+  const std::vector<linear::SparseForm> forms{
+      {.A = r.chain.K, .symmetry = linear::FormSymmetry::symmetric},
+      {.A = C, .symmetry = linear::FormSymmetry::none}};
+  const std::vector<Eigen::MatrixXd> projected = project_forms(Q_CB, r.dofs, forms);
+  const Eigen::MatrixXd Q = basis_rows(Q_CB, r.dofs, all_dofs());
+  ASSERT_EQ(projected.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_LT((projected[i] - Q.transpose() * linear::replicate(forms[i].A) * Q).norm(), round_off);
+}
+
 }  // namespace
 }  // namespace chladni::reduce

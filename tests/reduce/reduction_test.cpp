@@ -98,6 +98,28 @@ TEST(MemoryForecast, CountsConstraintModesWhereTheirMastersMoveSomething)
   EXPECT_NEAR(both_and_one[0] - both_and_one[1], half_of_all_MiB, 0.02 * half_of_all_MiB);
 }
 
+TEST(MemoryForecast, IsAskedAgainWhereASearchGoesOn)
+{
+  // A column is 16 kB: 85 + 2.2 n of the basis of Lanczos and n modes are 4 MiB for 60 modes, and
+  // 45 MiB for 1000.
+  linear::testing::Chain chain = linear::testing::free_chain(2000);
+  const Body body{.K = std::move(chain.K), .M = std::move(chain.M), .masters = {0}};
+  const DofPartition dofs = partition(body.K, linear::testing::master_set(body.K, body.masters));
+  const Blocks K = split(body.K, dofs), M = split(body.M, dofs);
+  ReductionOptions options{.basis = {.cutoff_Hz = 0.1}, .count = false};
+  const MemoryForecast forecast(body, K, M, options);
+  const linear::Factorization K_ss =
+      linear::factorize(K.ss, {.factor = forecast.at_first({.memory_MiB = 20.0})});
+  EXPECT_NO_THROW(forecast.require(K_ss.factor(), 60));
+  try {
+    forecast.require(K_ss.factor(), 1000);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("the search goes on to 1000 modes"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Reduction, CountsWhereThatIsCheapAndNowhereElse)
 {
   PhaseListener silent;

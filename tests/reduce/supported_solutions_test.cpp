@@ -7,6 +7,7 @@
 
 #include "linear/kernels/dense_matrices.hpp"
 #include "tests/linear/chain.hpp"
+#include "tests/linear/matrices.hpp"
 
 namespace chladni::reduce {
 namespace {
@@ -90,6 +91,27 @@ TEST(NaturalModes, OfAHeldChainAreZeroAtTheSupportAndNormal)
   const linear::LocalRows rows(modes.X);
   if (first == 0) {
     EXPECT_EQ(rows(0, 0), 0.0);
+  }
+}
+
+TEST(NaturalModes, AreAsManyAsAreAskedForWhereTheLastOneHasAPartner)
+{
+  // Two equal chains, each held at its first mass.
+  const PetscInt n = 60;
+  const petsc::Matrix K = linear::testing::matrix(2 * n, 3, [&](PetscInt i) {
+    linear::testing::Row row{{i, double(i >= 2) + double(i + 2 < 2 * n)}};
+    if (i >= 2) row.emplace_back(i - 2, -1.0);
+    if (i + 2 < 2 * n) row.emplace_back(i + 2, -1.0);
+    return row;
+  });
+  const petsc::Matrix M = linear::testing::diagonal(2 * n, [](PetscInt) { return 1.0; });
+  const NaturalModes modes = natural_modes(K, M, free_dofs(K, {0, 1}), {.n_modes = 3});
+  ASSERT_EQ(modes.lambda.size(), 3u);
+  EXPECT_EQ(linear::LocalRows(modes.X).n_cols(), 3);
+  for (int k = 0; k < 3; ++k) {
+    const double exact =
+        4.0 * std::pow(std::sin((2 * (k / 2) + 1) * std::numbers::pi / (2.0 * (2 * n - 1))), 2);
+    EXPECT_NEAR(modes.lambda[std::size_t(k)] / exact, 1.0, 1e-10) << k;
   }
 }
 
