@@ -1,13 +1,14 @@
 """Plants small faults in the sources of libraries and asks whether their unit tests see them.
 
 usage: mutants.py BUILD PAGE.md NUMBER [ROOM...]
+       mutants.py BUILD PAGE.md again
 
 So many faults are drawn from the tables below, with the number of commits as seed, from the sources of the rooms (of all that
 have a library and a unit test). Those of one library are compiled together: each waits behind CHLADNI_MUTANT, so that `a < b`
 becomes `mutants::is(17) ? a <= b : a < b`. What cannot be written so is compiled by itself. A first run of the tests, with no
 fault, notes which test reaches which of them and how long it takes. A fault is tried by the tests that reach it, the shortest
-first, until one fails, hangs or dies; where none does, by all tests of the library. PAGE.md gets a table by room and all
-survivors with file and line.
+first, until one fails, hangs or dies; what survives on one rank is tried on several, as in the gate. PAGE.md gets a table by
+room and all survivors with file and line; `again` makes it anew from the last run, with what is known to be equivalent by now.
 
 Debian 12 and 13 package no such tool for C++: Mull, Dextool, universalmutator and Milu were looked for, and a search for
 "mutation" finds genetics, permutations and JavaScript alone.
@@ -18,6 +19,7 @@ import os
 import pathlib
 import random
 import re
+import resource
 import shlex
 import subprocess
 import sys
@@ -42,6 +44,9 @@ ROOMS = {
     "squeal": (["squeal_brake", "squeal"], ["assembly_test", "sweep_test", "squeal_test"]),
 }  # fmt: skip
 
+# On how many ranks the gate runs a program at most.
+ON_RANKS = {"linear_test": 3, "reduce_test": 2, "assemble_test": 3}
+
 # Faults that change nothing that a test may ask for: file, the line as it is, what becomes of it (None: whatever), and why that
 # is equivalent.
 EQUIVALENT = [
@@ -56,6 +61,20 @@ EQUIVALENT = [
      "no frequency is as low: it keeps a value from being infinite that is not taken"),
     ("common/files/hdf5.cpp", "const Eigen::Index most = std::max<Eigen::Index>(1, piece / std::max<Eigen::Index>(1, x.cols()));", None,
      "how many rows are written at a time; the file is the same"),
+    ("linear/dense/dense_solvers.cpp", "const Eigen::VectorXd s = std::min(A.rows(), A.cols()) <= few", None,
+     "two algorithms for the same values; which one is faster"),
+    ("reduce/cyclic/harmonic_coordinates.cpp", "if (column.norm() > dependent) B.col(found++) = column.normalized();",
+     "if ((column.norm() >= dependent)) B.col(found++) = column.normalized();", "no length is the limit itself"),
+    ("plate/elements/shell_strains.cpp", "if (parts == StrainParts::all) {", "if (true || (parts == StrainParts::all)) {",
+     "zeros where nobody reads: parts that were not asked for"),
+    ("plate/assembly/inertia_integrals.cpp", "constexpr double round_off = 1e-14;", "constexpr double round_off = 1e-11;",
+     "what moves together couples by more than either of the two, what does not by less"),
+    ("plate/dofs/dof_map.cpp", "return (E.array().abs() < 1e-14).select(0.0, E);", "return (E.array().abs() < 1e-11).select(0.0, E);",
+     "a component of a direction that is no round-off is larger than either of the two"),
+    ("plate/refinement/refined_mesh.cpp", "if (share > near_middle) return middle;", "if ((share >= near_middle)) return middle;",
+     "no share is the limit itself"),
+    ("plate/assembly/geometric_stiffness.cpp", "if (offsets.size() == 0 && std::ranges::none_of(nodes, follows)) return;",
+     "if (false && (offsets.size() == 0 && std::ranges::none_of(nodes, follows))) return;", "arms of no length add nothing; it saves work"),
 ]  # fmt: skip
 
 RELATIONS = {"<": ("<=", ">="), "<=": ("<", ">"), ">": (">=", "<="), ">=": (">", "<"), "==": ("!=",), "!=": ("==",),
@@ -90,18 +109,25 @@ inline double value(int number, double right, double wrong) { return is(number) 
 }  // namespace mutants
 """
 
-# Appends `name milliseconds reached...` of each test to the file CHLADNI_REACHED.
+# Appends `name milliseconds reached...` of each test to the file CHLADNI_REACHED, with -1 of one that fails; `suite. 0 reached...`
+# of what runs before its first test, whose result all of them read, and `*. 0 reached...` of constants that are made before all.
 LISTENER = """#include <gtest/gtest.h>
 #include <cstdio>
 #include "mutants.hpp"
 namespace {
 class Listener : public testing::EmptyTestEventListener {
+  void OnTestProgramStart(const testing::UnitTest& /*all*/) override { note("*", "", 0); }
+  void OnTestStart(const testing::TestInfo& test) override { note(test.test_suite_name(), "", 0); }
   void OnTestEnd(const testing::TestInfo& test) override
+  {
+    note(test.test_suite_name(), test.name(), test.result()->Failed() ? -1 : int(test.result()->elapsed_time()));
+  }
+  static void note(const char* suite, const char* name, int milliseconds)
   {
     const char* path = std::getenv("CHLADNI_REACHED");
     if (path == nullptr) return;
     std::FILE* file = std::fopen(path, "a");
-    std::fprintf(file, "%s.%s %d", test.test_suite_name(), test.name(), int(test.result()->elapsed_time()));
+    std::fprintf(file, "%s.%s %d", suite, name, milliseconds);
     for (int i = 0; i < mutants::most; ++i)
       if (mutants::reached[i]) std::fprintf(file, " %d", i);
     std::fprintf(file, "\\n");
@@ -417,7 +443,10 @@ class Library:
         return out
 
 
-def runs(program, build, timeout, mutant=None, tests=None, reached=None):
+most_memory = 8 << 30  # bytes: a loop that does not end may fill the machine
+
+
+def runs(program, build, timeout, mutant=None, tests=None, reached=None, ranks=1):
     """(whether all tests passed, the first that did not)"""
     environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1",
                        CHLADNI_MESHER=str(build / "libexec/chladni/chladni-mesher"))
@@ -427,10 +456,16 @@ def runs(program, build, timeout, mutant=None, tests=None, reached=None):
         environment["CHLADNI_REACHED"] = str(reached)
     if tests is not None:
         environment["GTEST_FILTER"] = ":".join(tests)
-    fast = [] if reached is not None else ["--gtest_fail_fast"]
+    several = ["mpiexec", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
+    fast = [] if reached is not None or several else ["--gtest_fail_fast"]  # on several, the others would wait
+
+    def limited():
+        resource.setrlimit(resource.RLIMIT_AS, (most_memory, most_memory))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     try:
-        done = subprocess.run([program, "--gtest_brief=1", *fast], cwd=build / "tests", env=environment, timeout=timeout,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", check=False)  # fmt: skip
+        done = subprocess.run([*several, program, "--gtest_brief=1", *fast], cwd=build / "tests", env=environment, timeout=timeout,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", check=False,
+                              preexec_fn=limited)  # fmt: skip
     except subprocess.TimeoutExpired:
         return False, "time"
     failed = re.search(r"\[  FAILED  \] ([\w/.]+)", done.stdout)
@@ -464,38 +499,55 @@ def compiled(library, faults):
 
 
 def baseline(library, programs):
-    """{test: (program, seconds, numbers that it reaches)}"""
+    """{(name of the program, test): (seconds, numbers that it reaches)}"""
     known = {}
     for name, program in programs.items():
         file = library.scratch / f"{name}.reached"
         file.unlink(missing_ok=True)
         passed, failed = runs(program, library.build, 1200, reached=file)
-        if not passed:
+        if not passed and " -1" not in file.read_text():
             sys.exit(f"mutants: {name} fails without a fault: {failed}")
+        of_suite = {}
         for line in file.read_text().splitlines():
             test, milliseconds, *numbers = line.split()
-            known[name, test] = (program, int(milliseconds) / 1e3, {int(n) for n in numbers})
+            suite = test.split(".")[0]
+            if milliseconds == "-1":  # such as a test of the limit of memory, within another limit
+                print(f"mutants: {test} of {name} fails without a fault", flush=True)
+            elif test.endswith("."):
+                of_suite.setdefault(suite, set()).update(int(n) for n in numbers)
+            else:
+                known[name, test] = (int(milliseconds) / 1e3, {int(n) for n in numbers} | of_suite[suite] | of_suite["*"])
     return known
+
+
+def batches(known, tests):
+    """(program, [test...], seconds), so that what fails in a short test is seen before the long ones begin."""
+    of_program = {}
+    for seconds, (name, test) in sorted((known[key][0], key) for key in tests):
+        of_its = of_program.setdefault(name, [])
+        spent = sum(s for _, s in of_its)
+        if not of_its or (of_its[-1][1] > 0.5 and of_its[-1][1] + seconds > 3.0 * (spent - of_its[-1][1])):
+            of_its.append(([], 0.0))
+        of_its[-1] = ([*of_its[-1][0], test], of_its[-1][1] + seconds)
+    return sorted(((name, of_batch, seconds) for name, of_its in of_program.items() for of_batch, seconds in of_its), key=lambda b: b[2])
 
 
 def tried(library, fault, programs, known, number):
     """Fills in the outcome."""
-    reaching = {k: v for k, v in known.items() if fault.by_itself or fault.number in v[2]}
-    if not reaching:
-        fault.outcome = "survived"
-        fault.seen_by = "no test comes here"
-        return
-    by_program = {}
-    for (name, test), (_, seconds, _) in sorted(reaching.items(), key=lambda item: item[1][1]):
-        by_program.setdefault(name, []).append((test, seconds))
-    rounds = [] if fault.by_itself else [(n, [t for t, s in tests], sum(s for _, s in tests)) for n, tests in by_program.items()]
-    rounds += [(n, None, sum(v[1] for k, v in known.items() if k[0] == n)) for n in programs]
-    for name, tests, seconds in rounds:
-        passed, failed = runs(programs[name], library.build, 8.0 * seconds + 30.0, mutant=number, tests=tests)
+    reaching = [key for key, (_, numbers) in known.items() if fault.by_itself or fault.number in numbers]
+    fault.outcome, fault.seen_by = "survived", "" if reaching else "no test comes here"
+    for name, tests, seconds in batches(known, reaching):
+        passed, failed = runs(programs[name], library.build, 5.0 * seconds + 15.0, mutant=number, tests=tests)
         if not passed:
             fault.outcome, fault.seen_by = "seen", failed
             return
-    fault.outcome = "survived"
+    for name in (n for n in programs if n in ON_RANKS):
+        tests = [test for program, test in reaching or known if program == name]
+        seconds = sum(known[key][0] for key in known if key[0] == name)
+        passed, failed = runs(programs[name], library.build, 10.0 * seconds + 30.0, mutant=number, tests=tests, ranks=ON_RANKS[name])
+        if not passed:
+            fault.outcome, fault.seen_by = "seen", f"{failed}, on {ON_RANKS[name]} ranks"
+            return
 
 
 def try_library(room, build, scratch, faults):
@@ -550,9 +602,9 @@ def page(faults, seed, asked):
     total = {k: sum(row[k] for row in rooms.values()) for k in ("seen", "survived", "equivalent")}
     yield "# Mutants\n"
     yield (f"Written by `./dev mutants {asked}` at commit {seed}: small faults, planted at random in the sources of a library "
-           "(relations, signs, constants, statements, guards, extremes), and whether the unit tests of the library see them on one "
-           "rank. The number of commits is the seed, so that other faults are tried each time. An equivalent fault changes nothing "
-           "that a test may ask for; `tests/tools/mutants.py` says why.\n")
+           "(relations, signs, constants, statements, guards, extremes), and whether the unit tests of the library see them, on as "
+           "many ranks as in the gate. The number of commits is the seed, so that other faults are tried each time. An equivalent fault "
+           "changes nothing that a test may ask for; `tests/tools/mutants.py` says why.\n")
     yield "| room | seen | survived | equivalent |\n| --- | --- | --- | --- |"
     for room, row in (*sorted(rooms.items()), ("**all**", total)):
         yield f"| {room} | {row['seen']} | {row['survived']} | {row['equivalent']} |"
@@ -567,32 +619,46 @@ def page(faults, seed, asked):
                f"{cell('equivalent: ' + why) if why else cell(fault.seen_by) or 'survived'} |")
 
 
-def main():
-    build, target, number = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), int(sys.argv[3])
-    names = sys.argv[4:] or list(ROOMS)
+def drawn_from_rooms(build, number, names):
+    """(the number of commits, [(room, fault)...])"""
     seed = int(subprocess.run(["git", "rev-list", "--count", "HEAD"], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout)
-    generator = random.Random(seed)
     room_of = {library: room for room in names for library in ROOMS[room][0]}
     paths = {}
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         of_library = UNITY.search(entry["file"])
         if of_library and of_library[1] in room_of:
             paths.update((path, room_of[of_library[1]]) for path in sources_of(pathlib.Path(entry["file"])))
-    chosen = drawn(sorted(paths), number, generator)
+    chosen = drawn(sorted(paths), number, random.Random(seed))
     for i, fault in enumerate(chosen):
         fault.number = i
+    return seed, [(paths[f.path], f) for f in chosen]
+
+
+def try_all(build, asked, last):
+    """Tries what is drawn, room by room, and keeps what is known after each room."""
+    seed, chosen = drawn_from_rooms(build, int(asked[0]), asked[1:] or list(ROOMS))
     started = time.monotonic()
-    for room in names:
-        of_room = [f for f in chosen if paths[f.path] == room]
+    done = []
+    for room in asked[1:] or list(ROOMS):
+        of_room = [f for of, f in chosen if of == room]
         if not of_room:
             continue
         scratch = build / "mutants" / room.replace("/", "_")
         scratch.mkdir(parents=True, exist_ok=True)
         print(f"mutants: {len(of_room)} in {room}  [{time.monotonic() - started:.0f} s]", flush=True)
         try_library(room, build, scratch, of_room)
-    faults = [(paths[f.path], f) for f in chosen if f.outcome in ("seen", "survived")]
-    (build / "mutants" / "last.json").write_text(json.dumps([dataclasses.asdict(f) for _, f in faults], indent=1), encoding="utf-8")
-    target.write_text("\n".join(page(faults, seed, " ".join(sys.argv[3:]))) + "\n", encoding="utf-8")
+        done += [{"room": room, **dataclasses.asdict(f)} for f in of_room if f.outcome in ("seen", "survived")]
+        last.write_text(json.dumps({"seed": seed, "asked": asked, "faults": done}, indent=1), encoding="utf-8")
+
+
+def main():
+    build, target, asked = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), sys.argv[3:]
+    last = build / "mutants" / "last.json"
+    if asked != ["again"]:
+        try_all(build, asked, last)
+    run = json.loads(last.read_text(encoding="utf-8"))
+    faults = [(entry.pop("room"), Fault(**entry)) for entry in run["faults"]]
+    target.write_text("\n".join(page(faults, run["seed"], " ".join(run["asked"]))) + "\n", encoding="utf-8")
     for _, fault in faults:
         if fault.outcome == "survived" and not reason(fault):
             print(f"survived: {fault.path}:{fault.line}: {fault.before}\n  as: {fault.after}")
