@@ -263,9 +263,9 @@ std::optional<HarmonicResponses> harmonic_responses(const scene::Scene& scene,
       harmonic_method(scene.reduce).method != reduce::Method::mixed_interface)
     return std::nullopt;
   const mbs_export::HeldDofs support_dofs = mbs_export::held_dofs(whole, scene.body.fixed);
-  if (std::ssize(support_dofs.dofs) == 6 * std::ssize(whole.attachment_nodes)) return std::nullopt;
   const mbs_export::LoadedDofs loads =
       mbs_export::loaded_dofs(whole, support_dofs, scene.body.interface_modes);
+  if (loads.dofs.empty()) return std::nullopt;
   const std::optional<LoadedPlaces> places = loaded_places(model, whole, loads);
   if (!places) return std::nullopt;
   constexpr double share = 1.0 / 3.0;

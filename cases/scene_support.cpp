@@ -13,6 +13,7 @@
 #include "mbs_export/attachment_dofs.hpp"
 #include "mbs_export/free_modes.hpp"
 #include "mbs_export/held_modes.hpp"
+#include "mbs_export/loaded_dofs.hpp"
 #include "mbs_export/response_error.hpp"
 #include "mbs_export/select_by_tolerance.hpp"
 #include "reduce/reduced_system.hpp"
@@ -66,13 +67,16 @@ namespace {
 reduce::ResponseLoads loads_of(const mbs_export::ResponseSizes& sizes,
                                const std::vector<int>& places, Index n_masters)
 {
-  reduce::ResponseLoads loads{.F = MatrixXd::Zero(n_masters, std::ssize(sizes.rows)),
+  reduce::ResponseLoads loads{.F = MatrixXd::Zero(n_masters, sizes.unit.size()),
                               .Omega = sizes.Omega,
                               .size = sizes.size,
                               .loss_factor = mbs_export::stiffness_factor().imag()};
   for (std::size_t j = 0; j < sizes.rows.size(); ++j) {
     const int row = places[static_cast<std::size_t>(sizes.rows[j])];
-    loads.F(row, Index(j)) = sizes.unit[Index(j)];
+    if (sizes.spread.size() > 0)
+      loads.F.row(row) = sizes.spread.row(Index(j)).cwiseProduct(sizes.unit.transpose());
+    else
+      loads.F(row, Index(j)) = sizes.unit[Index(j)];
   }
   return loads;
 }
@@ -93,6 +97,9 @@ std::optional<SceneResponses> scene_responses(const scene::Scene& scene,
 {
   const std::optional<mbs_export::Tolerance>& tolerance = scene.body.keep.tolerance;
   if (!tolerance || described.ring_motion || fixed != scene.body.fixed) return std::nullopt;
+  const mbs_export::HeldDofs held = mbs_export::held_dofs(described, fixed);
+  if (mbs_export::loaded_dofs(described, held, scene.body.interface_modes).dofs.empty())
+    return std::nullopt;
   constexpr double share = 1.0 / 3.0;
   auto names = std::make_shared<std::vector<std::string>>();
   const auto loads = [names, described = std::move(described), masters = std::move(masters),

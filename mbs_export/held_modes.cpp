@@ -164,25 +164,43 @@ void refuse_cancellation(const ModeShift& shift, const FreeModes& modes)
   }
 }
 
+/// Dependent modes for a support, ascending, and whether they hold its displacements apart.
+struct DependentModes {
+  std::vector<int> of_free;
+  bool hold = false;
+};
+
+/// @param Q_held  [n_c x n_modes] held displacements, each row of unit length
+DependentModes dependent_modes(const FreeModes& modes, const MatrixXd& Q_held)
+{
+  const auto hold = [&](const std::vector<int>& chosen) {
+    return Index(chosen.size()) == Q_held.rows() &&
+           linear::condition_number(rows_of_unit_length(Q_held(every, chosen))) <=
+               largest_condition;
+  };
+  DependentModes found{.of_free = rigid_then_elastic(modes, Q_held)};
+  found.hold = hold(found.of_free);
+  if (!found.hold) {
+    found.of_free = independent_columns(Q_held * preference(modes).asDiagonal(), 1e-14);
+    found.hold = hold(found.of_free);
+  }
+  std::ranges::sort(found.of_free);
+  return found;
+}
+
 }  // namespace
 
 ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held)
 {
   const MatrixXd Q_held = rows_of_unit_length(held.displacements(modes.Q_e));
-  std::vector<int> dependent = rigid_then_elastic(modes, Q_held);
-  const bool complete = Index(dependent.size()) == Q_held.rows();
-  if (!complete ||
-      linear::condition_number(rows_of_unit_length(Q_held(every, dependent))) > largest_condition) {
-    dependent = independent_columns(Q_held * preference(modes).asDiagonal(), 1e-14);
-    if (dependent.size() < held.dofs.size()) {
-      throw BodyOptionError("fixed", fmt::format("mode shifting: the modes cannot hold {} apart "
-                                                 "from the other held displacements; fix "
-                                                 "fewer, or reduce with more masters or modes",
-                                                 dependent_names(Q_held, held)));
-    }
+  const DependentModes dependent = dependent_modes(modes, Q_held);
+  if (dependent.of_free.size() < held.dofs.size()) {
+    throw BodyOptionError(
+        "fixed", fmt::format("mode shifting: the modes cannot hold {} apart from the other held "
+                             "displacements; fix fewer, or reduce with more masters or modes",
+                             dependent_names(Q_held, held)));
   }
-  std::ranges::sort(dependent);
-  return shift_by(modes, held, dependent);
+  return shift_by(modes, held, dependent.of_free);
 }
 
 ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held,
@@ -275,23 +293,6 @@ ModeSelection select_modes(const Eigen::VectorXd& omega, const KeptModes& keep)
   return selection;
 }
 
-HeldBody held_body(const ReducedSystem& reduced, const std::vector<std::string>& fixed)
-{
-  FreeModes free = orthogonalize(reduced);
-  HeldDofs held = held_dofs(reduced, fixed);
-  refuse_drilling_support(reduced, held);
-  ModeShift shift = shift_modes(free, held);
-  ConstrainedModes constrained = constrained_modes(shift);
-  Eigen::MatrixXd T = free.Q_e * (shift.Q_c * constrained.X);
-  Eigen::MatrixXd U = attachment_motion(reduced, T);
-  return {.free = std::move(free),
-          .held = std::move(held),
-          .shift = std::move(shift),
-          .constrained = std::move(constrained),
-          .T = std::move(T),
-          .U = std::move(U)};
-}
-
 namespace {
 
 /// All modes, where a held displacement is a combination of coordinates.
@@ -315,16 +316,17 @@ std::vector<int> other_rows(const std::vector<int>& rows, Index n)
   return others;
 }
 
-}  // namespace
-
-HeldModeShapes held_mode_shapes(const ReducedSystem& reduced, const std::vector<std::string>& fixed,
-                                const linear::LowestModes& wanted)
+/// The rigid-body motions that a support leaves, M_r-orthonormal.
+MatrixXd unheld_motions(const RigidModes& rigid, const HeldDofs& held)
 {
-  const HeldDofs held = held_dofs(reduced, fixed);
-  refuse_drilling_support(reduced, held);
-  if (!held.are_masters()) return by_mode_shift(reduced, held);
-  const RigidModes rigid = rigid_modes(reduced);
-  const MatrixXd unheld = rigid.R * unheld_combinations(rigid.R(held.rows, every));
+  return rigid.R * unheld_combinations(rigid.R(held.rows, every));
+}
+
+/// Without the rows and columns of the held masters.
+HeldModeShapes by_elimination(const ReducedSystem& reduced, const HeldDofs& held,
+                              const RigidModes& rigid, const linear::LowestModes& wanted)
+{
+  const MatrixXd unheld = unheld_motions(rigid, held);
   const std::vector<int> rows = other_rows(held.rows, reduced.K.rows());
   const linear::Eigenmodes elastic = linear::lowest_eigenmodes(
       reduced.K(rows, rows), reduced.M(rows, rows), unheld(rows, every), wanted);
@@ -334,6 +336,45 @@ HeldModeShapes held_mode_shapes(const ReducedSystem& reduced, const std::vector<
                         .n_free_rigid = static_cast<int>(rigid.R.cols())};
   shapes.X(rows, every) = elastic.X;
   return shapes;
+}
+
+}  // namespace
+
+HeldModeShapes held_mode_shapes(const ReducedSystem& reduced, const std::vector<std::string>& fixed,
+                                const linear::LowestModes& wanted)
+{
+  const HeldDofs held = held_dofs(reduced, fixed);
+  refuse_drilling_support(reduced, held);
+  if (!held.are_masters()) return by_mode_shift(reduced, held);
+  return by_elimination(reduced, held, rigid_modes(reduced), wanted);
+}
+
+HeldBody held_body(const ReducedSystem& reduced, const std::vector<std::string>& fixed)
+{
+  HeldBody body{.free = orthogonalize(reduced), .held = held_dofs(reduced, fixed)};
+  refuse_drilling_support(reduced, body.held);
+  const MatrixXd Q_held = rows_of_unit_length(body.held.displacements(body.free.Q_e));
+  const DependentModes dependent = dependent_modes(body.free, Q_held);
+  if (body.held.are_masters() && !dependent.hold) {
+    const RigidModes rigid = rigid_modes(reduced);
+    const HeldModeShapes elastic = by_elimination(reduced, body.held, rigid, {});
+    body.n_rigid = elastic.n_rigid;
+    body.omega = VectorXd::Zero(elastic.n_rigid + elastic.omega.size());
+    body.omega.tail(elastic.omega.size()) = elastic.omega;
+    body.T.resize(reduced.K.rows(), body.omega.size());
+    body.T << unheld_motions(rigid, body.held), elastic.X;
+  } else {
+    const ModeShift shift = dependent.hold ? shift_by(body.free, body.held, dependent.of_free)
+                                           : shift_modes(body.free, body.held);
+    ConstrainedModes constrained = constrained_modes(shift);
+    body.n_rigid = constrained.n_rigid;
+    body.omega = std::move(constrained.omega);
+    body.condition_Q_dd = shift.condition_Q_dd;
+    body.condition_directions = shift.condition_directions;
+    body.T = body.free.Q_e * (shift.Q_c * constrained.X);
+  }
+  body.U = attachment_motion(reduced, body.T);
+  return body;
 }
 
 double rigid_residual(const ReducedSystem& reduced)

@@ -80,17 +80,20 @@ std::vector<ModeCluster> mode_clusters(const Eigen::VectorXd& omega);
 /// @throws chladni::Error for more than one criterion, a mode that does not exist, or no mode left.
 ModeSelection select_modes(const Eigen::VectorXd& omega, const KeptModes& keep);
 
-/// A reduced system under its supports: free modes, shifted modes, modes of the held body.
+/// A reduced system under its supports: free modes, and modes of the held body.
 struct HeldBody {
   FreeModes free;
   HeldDofs held;
-  ModeShift shift;
-  ConstrainedModes constrained;
-  Eigen::MatrixXd T;  ///< Q_e Q_c X, [n_FE x n] modes in the coordinates of the reduced system
-  Eigen::MatrixXd U;  ///< [6 n_nodes x n] motion of the attachment nodes in the modes T
+  Eigen::VectorXd omega = {};  ///< [n], rad/s, ascending; the first n_rigid are exactly zero
+  int n_rigid = 0;             ///< rigid-body motions that the support leaves
+  double condition_Q_dd = 1.0, condition_directions = 1.0;  ///< as ModeShift; 1 without one
+  Eigen::MatrixXd T = {};  ///< [n_FE x n] modes in the coordinates of the reduced system
+  Eigen::MatrixXd U = {};  ///< [6 n_nodes x n] motion of the attachment nodes in the modes T
 };
 
-/// Computes the modes of a reduced system under its supports.
+/// Computes the modes of a reduced system under its supports, by mode shifting. Where no choice of
+/// dependent modes holds the displacements apart, as of the nodes of a whole edge, whose rotations
+/// about the normal of a shell have hardly any stiffness, held masters are left out of the system.
 /// @param fixed  as BodyOptions::fixed
 /// @throws chladni::Error as `orthogonalize`, `held_dofs` and `shift_modes`.
 HeldBody held_body(const ReducedSystem& reduced, const std::vector<std::string>& fixed);

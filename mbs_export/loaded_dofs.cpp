@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "mbs_export/attachment_dofs.hpp"
 #include "mbs_export/body_options.hpp"
@@ -17,6 +18,8 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 /// Receptances between all of them are compared at every frequency.
 constexpr std::size_t most_loads = 256;
+/// Of loads that vary over the nodes of a set.
+constexpr int highest_degree = 8;
 
 /// Components that change among themselves when a ring is turned about z.
 constexpr std::array<std::array<int, 2>, 4> bundles{{{0, 1}, {2, 2}, {3, 4}, {5, 5}}};
@@ -169,7 +172,92 @@ LoadGroup group_of(const Pattern& pattern, Index n_loads)
   return group;
 }
 
+/// Orthonormal fields over nodes that span the polynomials of x, y and z up to a degree.
+/// @return [n_nodes x k]
+MatrixXd polynomials(const ReducedSystem& reduced, const std::vector<int>& nodes, int degree)
+{
+  constexpr double independent = 1e-8;
+  MatrixXd X(std::ssize(nodes), 3);
+  for (Index i = 0; i < X.rows(); ++i)
+    X.row(i) = reduced.attachment_nodes[std::size_t(nodes[std::size_t(i)])].position.transpose();
+  X.rowwise() -= X.colwise().mean().eval();
+  if (const double extent = X.cwiseAbs().maxCoeff(); extent > 0.0) X /= extent;
+  MatrixXd fields = MatrixXd::Constant(X.rows(), 1, 1.0 / std::sqrt(double(X.rows())));
+  Index first = 0;  // of those of the last degree
+  for (int of = 1; of <= degree; ++of) {
+    const Index end = fields.cols();
+    for (Index j = first; j < end; ++j) {
+      for (Index c = 0; c < 3; ++c) {
+        VectorXd next = X.col(c).cwiseProduct(fields.col(j));
+        for (int twice = 0; twice < 2; ++twice) next -= fields * (fields.transpose() * next).eval();
+        if (next.norm() < independent) continue;
+        fields.conservativeResize(Eigen::NoChange, fields.cols() + 1);
+        fields.rightCols(1) = next.normalized();
+      }
+    }
+    first = end;
+  }
+  return fields;
+}
+
+/// The nodes of each set loaded together, by polynomials up to a degree.
+LoadedDofs spread_loads(const ReducedSystem& reduced, LoadedDofs loads,
+                        const std::vector<SetLoad>& sets, const HeldDofs& held, int degree)
+{
+  loads.is_moment.clear();
+  loads.names.clear();
+  loads.spread.resize(std::ssize(loads.dofs), 0);
+  std::vector<Pattern> patterns;
+  for (const SetLoad& load : sets) {
+    const std::vector<int>& nodes = find_set(reduced, load.set).nodes;
+    const MatrixXd fields = polynomials(reduced, nodes, degree);
+    for (const int component : load.components) {
+      loads.names.push_back(
+          fmt::format("{}.{} of degree {}", load.set, component_name(component), degree));
+      const Index first = loads.spread.cols();
+      loads.spread.conservativeResize(Eigen::NoChange, first + fields.cols());
+      loads.spread.rightCols(fields.cols()).setZero();
+      const std::vector<int> dofs = dofs_of(reduced, held, nodes, component);
+      for (std::size_t i = 0; i < dofs.size(); ++i) {
+        const Index row = std::ranges::find(loads.dofs, dofs[i]) - loads.dofs.begin();
+        loads.spread.row(row).tail(fields.cols()) = fields.row(Index(i));
+      }
+      for (Index j = 0; j < fields.cols(); ++j) {
+        loads.is_moment.push_back(component >= 3);
+        patterns.push_back({fmt::format("{}.{}, field {}", load.set, component_name(component), j),
+                            {first + j},
+                            MatrixXd::Ones(1, 1),
+                            load.Omega_0});
+      }
+    }
+  }
+  loads.groups.clear();
+  for (const Pattern& pattern : patterns)
+    loads.groups.push_back(group_of(pattern, loads.spread.cols()));
+  return loads;
+}
+
+/// By polynomials of the highest degree that a selection can compare.
+LoadedDofs spread_over_sets(const ReducedSystem& reduced, const LoadedDofs& loads,
+                            const std::vector<SetLoad>& sets, const HeldDofs& held)
+{
+  for (int degree = highest_degree; degree >= 0; --degree) {
+    LoadedDofs spread = spread_loads(reduced, loads, sets, held, degree);
+    if (spread.is_moment.size() <= most_loads) return spread;
+  }
+  throw BodyOptionError(
+      "keep.tolerance",
+      fmt::format("{} sets are loaded, with more components than the {} loads that a tolerance can "
+                  "compare; name those that matter by interface_modes",
+                  sets.size(), most_loads));
+}
+
 }  // namespace
+
+MatrixXd LoadedDofs::worked_on(const MatrixXd& motions) const
+{
+  return spread.size() > 0 ? spread.transpose() * motions : motions;
+}
 
 int loaded_dof(const ReducedSystem& reduced, const HeldDofs& held, MasterDof loaded)
 {
@@ -191,8 +279,9 @@ LoadedDofs loaded_dofs(const ReducedSystem& reduced, const HeldDofs& held,
       contact_rings(reduced, MatrixXd(6 * Index(reduced.attachment_nodes.size()), 0));
   LoadedDofs loads;
   std::vector<Pattern> patterns;
-  for (const SetLoad& load :
-       wanted.empty() ? default_loads(reduced, held, rings) : loads_of(wanted)) {
+  const std::vector<SetLoad> sets =
+      wanted.empty() ? default_loads(reduced, held, rings) : loads_of(wanted);
+  for (const SetLoad& load : sets) {
     const auto ring = std::ranges::find(rings, load.set, &ContactRing::name);
     for (Pattern& pattern : ring != rings.end() ? add_ring(loads, reduced, held, load, *ring)
                                                 : add_set(loads, reduced, held, load))
@@ -200,17 +289,7 @@ LoadedDofs loaded_dofs(const ReducedSystem& reduced, const HeldDofs& held,
     for (const int component : load.components)
       loads.names.push_back(fmt::format("{}.{}", load.set, component_name(component)));
   }
-  if (loads.dofs.empty()) {
-    throw BodyOptionError("keep.tolerance",
-                          "a tolerance is about loads, and every attachment DOF is held");
-  }
-  if (loads.dofs.size() > most_loads) {
-    throw BodyOptionError(
-        "keep.tolerance",
-        fmt::format("{} loaded DOFs are more than the {} that a tolerance can compare; "
-                    "name those that matter by interface_modes",
-                    loads.dofs.size(), most_loads));
-  }
+  if (loads.dofs.size() > most_loads) return spread_over_sets(reduced, loads, sets, held);
   for (const Pattern& pattern : patterns)
     loads.groups.push_back(group_of(pattern, Index(loads.dofs.size())));
   return loads;

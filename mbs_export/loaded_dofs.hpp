@@ -20,19 +20,31 @@ struct LoadGroup {
   std::optional<double> Omega_0;
 };
 
-/// The attachment DOFs at which the scene loads the body.
+/// The attachment DOFs at which the scene loads the body, and the loads on them.
 struct LoadedDofs {
-  std::vector<int> dofs;           ///< 6 node + component, each once
-  std::vector<char> is_moment;     ///< [n_loads]
-  std::vector<std::string> names;  ///< [n_loads] "track.z" for all nodes of a set
+  std::vector<int> dofs;        ///< 6 node + component, each once
+  std::vector<char> is_moment;  ///< [n_loads]
+  /// "track.z" for all nodes of a set; "edge.z of degree 8" where its nodes are loaded together
+  std::vector<std::string> names;
   std::vector<LoadGroup> groups;
+  /// [n_dofs x n_loads] forces of each load on the DOFs, orthonormal for each set and component;
+  /// empty where each DOF is loaded by itself
+  Eigen::MatrixXd spread = {};
+
+  /// What the loads work on: motions of the DOFs, summed as the loads spread over them.
+  /// @param motions  [n_dofs x n]
+  /// @return [n_loads x n]
+  Eigen::MatrixXd worked_on(const Eigen::MatrixXd& motions) const;
 };
 
 /// The loads of a scene: the DOFs of its `interface_modes`. Without these, the displacement normal
 /// to the disc on every contact ring, and all DOFs that are neither held nor drilling
-/// (drilling.hpp) on every other set.
-/// @throws chladni::Error for a set or component that does not exist, is held or drilling, when no
-///         DOF is left to load, and for more loads than a selection can compare.
+/// (drilling.hpp) on every other set. Where these are more than 256, the nodes of each set are
+/// loaded together, by forces that vary over it as polynomials of x, y and z, of the highest degree
+/// up to 8 that gives at most 256 loads. Empty where the support holds all of these: then the body
+/// is moved by its reactions alone.
+/// @throws chladni::Error for a set or component that does not exist, is held or drilling, and for
+///         more sets than a selection can compare.
 LoadedDofs loaded_dofs(const ReducedSystem& reduced, const HeldDofs& held,
                        const std::vector<InterfaceModes>& wanted);
 

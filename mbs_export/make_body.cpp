@@ -117,6 +117,19 @@ MatrixXd responses_of_moved(const VectorXd& omega, const MatrixXd& B, const Inte
   return responses;
 }
 
+/// All modes of a range, and the first one in any case.
+Choice modes_of_range(const HeldModes& modes, const Tolerance& tolerance)
+{
+  const double end = 2.0 * std::numbers::pi * tolerance.up_to_Hz;
+  const auto in_range = static_cast<int>((modes.omega.array() <= end).count());
+  const int most = static_cast<int>(modes.omega.size());
+  ModeSelection selection =
+      select_modes(modes.omega, {.count = std::clamp(in_range, std::min(1, most), most)});
+  InterfaceBasis none = interface_basis(modes.omega(selection.neglected),
+                                        MatrixXd(std::ssize(selection.neglected), 0));
+  return {std::move(selection), std::move(none), {}};
+}
+
 Choice choose_by_tolerance(const HeldModes& modes, const BodyOptions& options)
 {
   if (options.keep.count || options.keep.up_to_Hz || options.keep.list) {
@@ -124,7 +137,8 @@ Choice choose_by_tolerance(const HeldModes& modes, const BodyOptions& options)
                           "a tolerance chooses the modes itself; give nothing else with it");
   }
   const LoadedDofs loads = loaded_dofs(modes.reduced, modes.held, options.interface_modes);
-  const MatrixXd B = modes.U(loads.dofs, every).transpose();
+  if (loads.dofs.empty()) return modes_of_range(modes, *options.keep.tolerance);
+  const MatrixXd B = loads.worked_on(modes.U(loads.dofs, every)).transpose();
   const std::optional<double> of_reduction =
       error_of_reduction(modes.reduced.certificate, options, loads);
   Tolerance left = *options.keep.tolerance;
@@ -206,21 +220,23 @@ ModalBody assemble(const ReducedSystem& reduced, const BodyOptions& options, con
 
 ModalBody make_body(const ReducedSystem& reduced, const BodyOptions& options)
 {
-  const auto [free, held, shift, constrained, T, U] = held_body(reduced, options.fixed);
-  const HeldModes modes{reduced, free, held, constrained.omega, T, U};
+  const HeldBody of_support = held_body(reduced, options.fixed);
+  const FreeModes& free = of_support.free;
+  const HeldModes modes{reduced,          free,         of_support.held,
+                        of_support.omega, of_support.T, of_support.U};
   const Choice choice =
       options.keep.tolerance ? choose_by_tolerance(modes, options) : choose_by_hand(modes, options);
   ModalBody body = assemble(reduced, options, merge(modes, choice.selection, choice.basis));
   body.free_frequencies = free.omega;
   body.n_rigid = free.n_rigid;
-  body.condition_Q_dd = shift.condition_Q_dd;
-  body.n_free_rigid = constrained.n_rigid;
-  body.preparation = {.n_constrained_modes = static_cast<int>(constrained.omega.size()),
+  body.condition_Q_dd = of_support.condition_Q_dd;
+  body.n_free_rigid = of_support.n_rigid;
+  body.preparation = {.n_constrained_modes = static_cast<int>(of_support.omega.size()),
                       .n_partners = choice.selection.n_partners,
                       .n_interface_dropped = choice.basis.n_dropped,
                       .n_massless = free.n_massless,
                       .rigid_residual = free.rigid_residual,
-                      .condition_directions = shift.condition_directions};
+                      .condition_directions = of_support.condition_directions};
   body.selection = choice.table;
   return body;
 }

@@ -336,7 +336,7 @@ Shapes shapes_at(const ReducedSystem& reduced, const std::vector<std::string>& f
   if (modes.n_rigid == 0)
     return {modes.omega, attachment_motion(reduced, modes.X)(dofs, every).transpose()};
   const HeldBody body = held_body(reduced, fixed);
-  return {body.constrained.omega, body.U(dofs, every).transpose()};
+  return {body.omega, body.U(dofs, every).transpose()};
 }
 
 }  // namespace
@@ -360,13 +360,15 @@ ResponseSizes response_sizes(const ReducedSystem& reduced, const BodyOptions& op
 {
   const LoadedDofs loads =
       loaded_dofs(reduced, held_dofs(reduced, options.fixed), options.interface_modes);
-  const Shapes shapes = shapes_at(reduced, options.fixed, loads.dofs);
+  Shapes shapes = shapes_at(reduced, options.fixed, loads.dofs);
+  shapes.B = loads.worked_on(shapes.B.transpose()).transpose();
   const std::vector<int> moved = moved_modes(shapes.omega, shapes.B);
   ResponseSizes sizes =
       response_sizes(reference_modes(shapes.omega(moved), shapes.B(moved, every), loads),
                      options.keep.tolerance.value());
   sizes.names = loads.names;
   for (const int dof : loads.dofs) sizes.rows.push_back(master_of(reduced, dof));
+  sizes.spread = loads.spread;
   return sizes;
 }
 

@@ -36,12 +36,13 @@ ToleranceSelection select_by_tolerance(const Eigen::VectorXd& omega, const Eigen
 
 /// The loads of a tolerance on responses, and the sizes that their errors are relative to.
 struct ResponseSizes {
-  std::vector<int> rows;           ///< [m] loaded masters
-  std::vector<std::string> names;  ///< "track.z" for all nodes of a set
+  std::vector<int> rows;           ///< loaded masters
+  std::vector<std::string> names;  ///< LoadedDofs::names
   Eigen::VectorXd unit;            ///< [m] scales that make forces and moments comparable
   Eigen::VectorXd Omega;  ///< [g + 1] rad/s, the ends of bands from 0 to the end of the range
   /// [m x g] What the size of the responses to a load, scaled by `unit`, is not below in a band.
   Eigen::MatrixXd size;
+  Eigen::MatrixXd spread = {};  ///< [n_rows x m] LoadedDofs::spread
 };
 
 /// The sizes of the responses of a reduced system.

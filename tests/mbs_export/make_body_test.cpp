@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <numeric>
 
 #include "bending_beam.hpp"
@@ -40,6 +41,41 @@ double receptance_slope(const ModalBody& body, int row, double Omega)
 {
   const Eigen::ArrayXd gap = body.omega.array().square() - Omega * Omega;
   return (body.attachment_modes.row(row).array().transpose() / gap).square().sum();
+}
+
+TEST(MakeBody, HoldsMastersThatNoModeMovesAlone)
+{
+  // A rotation without mass has no free mode of its own, so that these cannot hold all six masters.
+  // What is left are the fixed-interface modes.
+  ReducedSystem beam = test::reduced_beam(30, 8);
+  beam.M.row(5).setZero();
+  beam.M.col(5).setZero();
+  BodyOptions options;
+  options.fixed = {"A", "B", "C"};
+  const ModalBody body = make_body(beam, options);
+  ASSERT_EQ(body.n_modes(), 8);
+  // Of the same K and M as these frequencies, whose condition is 1e8.
+  EXPECT_LT(
+      (body.omega.cwiseQuotient(beam.fixed_interface_frequencies).array() - 1.0).abs().maxCoeff(),
+      1e-7);
+  EXPECT_EQ(body.n_free_rigid, 0);
+  EXPECT_EQ(body.attachment_modes.cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(MakeBody, OfATolerancesRangeKeepsItsModesWhereAllIsHeld)
+{
+  const ReducedSystem& beam = test::regression_beam();
+  BodyOptions options;
+  options.fixed = {"A", "B", "C"};
+  const double end =
+      0.5 * (beam.fixed_interface_frequencies[4] + beam.fixed_interface_frequencies[5]);
+  options.keep.tolerance = Tolerance{.error = 1e-3, .up_to_Hz = end / (2.0 * std::numbers::pi)};
+  const ModalBody body = make_body(beam, options);
+  ASSERT_EQ(body.n_modes(), 5);
+  EXPECT_NEAR(body.omega[4] / beam.fixed_interface_frequencies[4], 1.0, 1e-7);
+  EXPECT_FALSE(body.selection);
+  options.keep.tolerance->up_to_Hz = 1e-3;
+  EXPECT_EQ(make_body(beam, options).n_modes(), 1);
 }
 
 TEST(MakeBody, WithAllModesBendsLikeABeam)
