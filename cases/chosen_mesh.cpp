@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -14,7 +16,9 @@
 #include "common/error.hpp"
 #include "common/told_apart.hpp"
 #include "linear/solver_options.hpp"
+#include "mesh/element_types.hpp"
 #include "plate/dofs/dof_map.hpp"
+#include "plate/refinement/refined_mesh.hpp"
 #include "report/progress.hpp"
 #include "scene/keys.hpp"
 #include "scene/scene.hpp"
@@ -304,25 +308,6 @@ FoundMesh search_mesh(const scene::Scene& scene, const linear::SolverOptions& so
   return {.size = trial.size, .errors = std::move(trial.errors)};
 }
 
-void refuse_sectors(const scene::Scene& scene)
-{
-  const int sectors = scene.mesh.annulus    ? scene.mesh.annulus->sectors
-                      : scene.mesh.hat_disc ? scene.mesh.hat_disc->sectors
-                                            : scene.mesh.sectors;
-  if (sectors > 1) {
-    scene::refuse_key(scene, "mesh.sectors",
-                      "the error of the mesh is estimated on the whole body; take this key out, or "
-                      "write sectors = \"auto\"");
-  }
-}
-
-/// The errors on the mesh of the scene as it is.
-MeshErrors errors_of(const scene::Scene& scene, double up_to_Hz,
-                     const linear::SolverOptions& solver)
-{
-  return MeshFrequencies(scene, mesh_on_all_ranks(scene)).errors_up_to(two_pi * up_to_Hz, solver);
-}
-
 /// Of what the scene's body wants to be right.
 double range_of(const scene::Scene& scene)
 {
@@ -336,20 +321,135 @@ double range_of(const scene::Scene& scene)
       "up to which frequency? give reduce.tolerance or body.keep with up_to_Hz, or cutoff_Hz");
 }
 
+/// @param mesh  the mesh, in words
+void tell_choice(const MeshChoice& choice, const std::string& mesh)
+{
+  const scene::Accuracy& accuracy = *choice.scene.accuracy;
+  on_first_rank([&] {
+    report::tell_note(
+        fmt::format("accuracy {:.1e} up to {:.6g} Hz: {}; estimated error of the mesh {:.1e}",
+                    accuracy.error, accuracy.up_to_Hz, mesh, choice.errors->largest()));
+  });
+}
+
+/// The nodes at the ends of an edge, the lower first.
+using Ends = std::array<int, 2>;
+
+/// The largest angle, rad, at which straight elements or their free edges go on where the body is
+/// smooth; 0 where it is flat there.
+double largest_bend(const mesh::Mesh& mesh)
+{
+  constexpr double degree = std::numbers::pi / 180.0, least = 0.2 * degree, kink = 30.0 * degree;
+  const auto at = [&](int node) { return mesh.positions[std::size_t(node)]; };
+  std::map<Ends, std::vector<mesh::Vector>> normals;
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (block.order > 1 || !mesh::is_surface(block.shape)) continue;
+    for (int e = 0; e < block.n_elements(); ++e) {
+      const auto edges = mesh::edges_of(block, e);
+      const mesh::Vector normal =
+          mesh::unit(mesh::cross(mesh::minus(at(edges[0][1]), at(edges[0][0])),
+                                 mesh::minus(at(edges[1][1]), at(edges[1][0]))));
+      for (const auto& edge : edges)
+        normals[Ends{std::min(edge[0], edge[1]), std::max(edge[0], edge[1])}].push_back(normal);
+    }
+  }
+  double bend = 0.0;
+  const auto add = [&](const mesh::Vector& a, const mesh::Vector& b) {
+    const double angle = std::acos(std::min(1.0, std::abs(mesh::dot(a, b))));
+    if (angle > least && angle < kink) bend = std::max(bend, angle);
+  };
+  std::map<int, std::vector<mesh::Vector>> free;
+  for (const auto& [ends, of_elements] : normals) {
+    if (of_elements.size() == 2) add(of_elements[0], of_elements[1]);
+    if (of_elements.size() > 1) continue;
+    for (const int node : ends)
+      free[node].push_back(mesh::unit(mesh::minus(at(ends[1]), at(ends[0]))));
+  }
+  for (const auto& [node, edges] : free)
+    if (edges.size() == 2) add(edges[0], edges[1]);
+  return bend;
+}
+
+/// What straight elements lose of a curved body, which smaller ones do not give back.
+std::string told_shape(const mesh::Mesh& mesh)
+{
+  const double bend = largest_bend(mesh);
+  if (bend == 0.0) return "";
+  return fmt::format(
+      ", whose shape stays as it is: straight elements that go on at {:.2g} degrees leave a curve "
+      "by "
+      "{:.1e} of its radius, which no estimate includes",
+      bend * 180.0 / std::numbers::pi, bend * bend / 8.0);
+}
+
+/// Ways to split the elements of a file, the cheapest first: orders up to 3, where named points
+/// keep their nodes, then halves.
+std::vector<Split> ways_to_split(const mesh::Mesh& own)
+{
+  constexpr int highest = 3, most_halvings = 4;
+  std::vector<Split> ways;
+  Split last;
+  for (int order = own.blocks.front().order + 1; order <= highest; ++order) {
+    if (!plate::keeps_points(own, split(own, {.order = order}))) continue;
+    last.order = order;
+    ways.push_back(last);
+  }
+  for (last.halvings = 1; last.halvings <= most_halvings; ++last.halvings) ways.push_back(last);
+  return ways;
+}
+
+std::string described(const Split& into, const std::string& file)
+{
+  std::string text = fmt::format("the elements of {}", file);
+  if (into.order) text += fmt::format(" raised to order {}", *into.order);
+  if (into.halvings > 0)
+    text += fmt::format("{} halved {} times", into.order ? " and" : "", into.halvings);
+  return text;
+}
+
+/// The mesh of a file that has its own, with its elements split until they keep the accuracy.
+/// @param own  the choice of `mesh`, whose errors are too large
+MeshChoice split_mesh(const scene::Scene& supported, const MeshChoice& own, const mesh::Mesh& mesh,
+                      const linear::SolverOptions& solver)
+{
+  constexpr int most_dofs = 400'000;
+  const scene::Scene& scene = own.scene;
+  const double allowed = share_of_mesh * scene.accuracy->error;
+  double least = own.errors->largest();
+  const bool keeps_numbers = !scene.resultants.elements.empty();
+  for (const Split& into : keeps_numbers ? std::vector<Split>{} : ways_to_split(mesh)) {
+    MeshFrequencies frequencies(supported, split(mesh, into));
+    if (frequencies.n_dofs() > most_dofs) break;
+    MeshErrors errors = frequencies.errors_up_to(two_pi * scene.accuracy->up_to_Hz, solver);
+    least = std::min(least, errors.largest());
+    if (errors.largest() > allowed) continue;
+    MeshChoice choice{.scene = scene, .errors = std::move(errors)};
+    set_split(choice.scene.mesh, into);
+    tell_choice(choice, described(into, *scene.mesh.file) + told_shape(mesh));
+    return choice;
+  }
+  const auto [reached, most] = told_apart(least, allowed);
+  throw Error(fmt::format(
+      "{}: accuracy.error = {:.6g}: the mesh may have {} of it, and that of {} has an error of "
+      "{} up to {:.6g} Hz{}: give a finer one{}",
+      scene.path, scene.accuracy->error, most, *scene.mesh.file, reached, scene.accuracy->up_to_Hz,
+      keeps_numbers ? "; reduce.resultant_elements needs its elements as they are" : "",
+      or_ask_for_less(least)));
+}
+
 MeshChoice own_mesh(const scene::Scene& supported, const scene::Scene& scene,
                     const linear::SolverOptions& solver)
 {
-  MeshChoice choice{.scene = scene, .errors = errors_of(supported, range_of(scene), solver)};
-  if (scene.accuracy && choice.errors->largest() > share_of_mesh * scene.accuracy->error) {
-    const double error = choice.errors->largest();
-    const auto [reached, allowed] = told_apart(error, share_of_mesh * scene.accuracy->error);
-    throw Error(fmt::format(
-        "{}: accuracy.error = {:.6g}: the mesh may have {} of it, and that of {} has an error of "
-        "{} up to {:.6g} Hz; its size cannot be chosen: give a finer one{}",
-        scene.path, scene.accuracy->error, allowed, *scene.mesh.file, reached,
-        scene.accuracy->up_to_Hz, or_ask_for_less(error)));
+  const mesh::Mesh mesh = mesh_on_all_ranks(scene);
+  MeshChoice choice{
+      .scene = scene,
+      .errors = MeshFrequencies(supported, mesh).errors_up_to(two_pi * range_of(scene), solver)};
+  if (!scene.accuracy) return choice;
+  if (choice.errors->largest() <= share_of_mesh * scene.accuracy->error) {
+    tell_choice(choice, described({}, *scene.mesh.file) + told_shape(mesh));
+    return choice;
   }
-  return choice;
+  return split_mesh(supported, choice, mesh, solver);
 }
 
 }  // namespace
@@ -377,7 +477,6 @@ MeshChoice chosen_mesh(const scene::Scene& scene, const std::vector<plate::Suppo
                        const linear::SolverOptions& solver, Phases& phases)
 {
   if (!scene.accuracy && !scene.mesh_errors) return {.scene = scene, .errors = {}};
-  refuse_sectors(scene);
   phases.begin("errors of the mesh");
   scene::Scene supported = scene;
   supported.supports = supports;
@@ -385,12 +484,7 @@ MeshChoice chosen_mesh(const scene::Scene& scene, const std::vector<plate::Suppo
   FoundMesh found = search_mesh(supported, solver);
   MeshChoice choice{.scene = scene, .errors = std::move(found.errors)};
   set_size(choice.scene.mesh, found.size);
-  on_first_rank([&] {
-    report::tell_note(
-        fmt::format("accuracy {:.1e} up to {:.6g} Hz: {}; estimated error of the mesh {:.1e}",
-                    scene.accuracy->error, scene.accuracy->up_to_Hz, described(found.size),
-                    choice.errors->largest()));
-  });
+  tell_choice(choice, described(found.size));
   return choice;
 }
 

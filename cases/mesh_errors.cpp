@@ -244,7 +244,9 @@ mbs_export::OwnCompliances mesh_compliances(const scene::Scene& scene,
                                             const linear::SolverOptions& solver)
 {
   constexpr int most_by_orders = 10 * most_halved;
-  const SupportedModel model = assemble_supported(scene, mesh_on_all_ranks(scene));
+  mesh::Mesh mesh = mesh_on_all_ranks(scene);
+  if (mesh.sectors.count > 1) return {};
+  const SupportedModel model = assemble_supported(scene, std::move(mesh));
   const LoadedSets loaded = loaded_sets(scene, model.mesh);
   const int n_dofs = model.system.dofs.n_dofs(), order = model.mesh.blocks.front().order;
   const bool by_orders = n_dofs > most_halved;

@@ -49,7 +49,7 @@ MeshErrors mesh_errors(const scene::Scene& scene, const SupportedModel& model,
 
 /// The growth of own compliances at the interface sets of three or more nodes, by elements of half
 /// the size or, for a large model, of one order more. It costs two factors. Empty for a model with
-/// rigid-body motions, and for one that is too large for these.
+/// rigid-body motions, for one that is too large for these, and for one sector of a body.
 /// @param scene  with the supports of the body
 /// @note   Collective.
 mbs_export::OwnCompliances mesh_compliances(const scene::Scene& scene,

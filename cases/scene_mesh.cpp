@@ -11,8 +11,11 @@
 
 #include "cases/ranks.hpp"
 #include "common/petsc.hpp"
+#include "mesh/element_types.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/mesh_archive.hpp"
+#include "mesh/sectors.hpp"
+#include "plate/refinement/refined_mesh.hpp"
 #include "report/progress.hpp"
 
 namespace chladni::cases {
@@ -43,9 +46,62 @@ mesh::Mesh broadcast(const mesh::Mesh& mesh)
 
 }  // namespace
 
+mesh::Mesh split(mesh::Mesh mesh, const Split& into)
+{
+  const auto refine = [&](const plate::Refinement& refinement) {
+    mesh::Mesh finer = plate::refined(mesh, refinement).mesh;
+    finer.notes = std::move(mesh.notes);
+    finer.made_by = mesh.made_by;
+    if (mesh.sectors.count > 1) mesh::find_sector_edges(finer, mesh.sectors.count);
+    mesh = std::move(finer);
+  };
+  const int order = into.order.value_or(mesh.blocks.front().order);
+  if (into.order) refine({.parts = 1, .order = order});
+  for (int i = 0; i < into.halvings; ++i) refine({.parts = 2, .order = order});
+  return mesh;
+}
+
+void set_split(mesh::MeshOptions& mesh, const Split& into)
+{
+  mesh.element_order = into.order;
+  mesh.size_factor = std::ldexp(1.0, -into.halvings);
+}
+
+namespace {
+
+bool holds_an_edge(const mesh::Group& group, const mesh::Mesh& mesh)
+{
+  std::vector<char> has(mesh.positions.size(), 0);
+  for (const int node : group.nodes) has[std::size_t(node)] = 1;
+  const auto is_in = [&](const std::vector<int>& edge) {
+    return std::ranges::all_of(edge, [&](int node) { return has[std::size_t(node)] != 0; });
+  };
+  return std::ranges::any_of(mesh.blocks, [&](const mesh::ElementBlock& block) {
+    for (int e = 0; !mesh::is_solid(block.shape) && e < block.n_elements(); ++e)
+      if (std::ranges::any_of(mesh::edges_of(block, e), is_in)) return true;
+    return false;
+  });
+}
+
+/// Rings keep the nodes that they have.
+void take_edges_of_nodes(mesh::Mesh& mesh, const std::vector<mesh::RingOptions>& rings)
+{
+  for (mesh::Group& group : mesh.groups) {
+    const bool is_ring =
+        std::ranges::find(rings, group.name, &mesh::RingOptions::name) != rings.end();
+    if (group.dimension == 0 && !is_ring && holds_an_edge(group, mesh)) group.dimension = 1;
+  }
+}
+
+}  // namespace
+
 mesh::Mesh mesh_scene(const scene::Scene& scene)
 {
-  return mesh::generate(scene.mesh);
+  mesh::Mesh mesh = mesh::generate(scene.mesh);
+  if (!scene.accuracy || has_size(scene.mesh)) return mesh;
+  take_edges_of_nodes(mesh, scene.mesh.rings);
+  const auto halvings = static_cast<int>(std::lround(-std::log2(scene.mesh.size_factor)));
+  return split(std::move(mesh), {.order = scene.mesh.element_order, .halvings = halvings});
 }
 
 void check_groups(const scene::Scene& scene, const mesh::Mesh& mesh)

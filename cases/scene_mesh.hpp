@@ -10,9 +10,23 @@
 
 namespace chladni::cases {
 
-/// The mesh of the scene, with its rings.
+/// The mesh of the scene, with its rings. The elements of a file that has its own are split as
+/// `set_split` asks. With `accuracy` its groups of nodes that hold whole edges of elements are
+/// groups of these edges, so that finer elements are held and loaded all along them.
 /// @throws chladni::Error as `mesh::generate`.
 mesh::Mesh mesh_scene(const scene::Scene& scene);
+
+/// What becomes of the elements of a file that has its own.
+struct Split {
+  std::optional<int> order = {};  ///< that they get
+  int halvings = 0;               ///< of their size
+};
+
+/// The elements of a mesh, raised to an order and then halved.
+mesh::Mesh split(mesh::Mesh mesh, const Split& into);
+
+/// Asks `mesh_scene` for elements that are split.
+void set_split(mesh::MeshOptions& mesh, const Split& into);
 
 /// Checks that the mesh has all groups of the scene.
 /// @throws chladni::Error naming file, line and key of a group that it lacks.

@@ -1,5 +1,7 @@
 #include "cases/sector_frequencies.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -28,9 +30,14 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 namespace {
 
-SupportedSector sector_on(const scene::Scene& scene, const mesh::Mesh& whole, int count)
+/// @param refined  of the whole body or of one sector, as `of` is
+SupportedSector sector_on(const scene::Scene& scene, mesh::Mesh refined, int count,
+                          const mesh::Mesh& of)
 {
-  return supported_sector(scene, sector_model(scene, mesh::one_sector(whole, count)));
+  if (of.sectors.count == 1)
+    return supported_sector(scene, sector_model(scene, mesh::one_sector(refined, count)));
+  mesh::find_sector_edges(refined, count);
+  return supported_sector(scene, sector_model(scene, std::move(refined)));
 }
 
 /// Root sums of squares over all sectors of the motion of some nodes of one, as `differences` wants
@@ -89,7 +96,7 @@ MatrixXd shares_of(const SupportedSector& one, const ModesOfHarmonic& known,
 
 /// Names of the interface, and the mesh whose nodes count.
 struct InterfaceOf {
-  const mesh::Mesh& whole;
+  const mesh::Mesh& given;
   const std::vector<std::string>& names;
 
   /// Those nodes of a sector that the mesh has too, each of the body once.
@@ -98,10 +105,10 @@ struct InterfaceOf {
     std::set<int> next;  // of the sector further on
     for (const auto& [low, high] : sector.sectors.pairs) next.insert(high);
     std::vector<int> common;
-    for (const mesh::Group& group : whole.groups) {
+    for (const mesh::Group& group : given.groups) {
       if (std::ranges::find(names, group.name) == names.end()) continue;
       std::set<std::int64_t> numbers;
-      for (const int node : group.nodes) numbers.insert(whole.node_numbers[std::size_t(node)]);
+      for (const int node : group.nodes) numbers.insert(given.node_numbers[std::size_t(node)]);
       for (const int node : mesh::find_group(sector, group.name).nodes)
         if (!next.contains(node) && numbers.contains(sector.node_numbers[std::size_t(node)]))
           common.push_back(node);
@@ -170,33 +177,41 @@ std::vector<std::string> names_on_axis(const scene::Scene& scene, const mesh::Me
 
 }  // namespace
 
-std::optional<SectorFrequencies> SectorFrequencies::find(const scene::Scene& scene,
-                                                         const mesh::Mesh& whole)
+SectorFrequencies::SectorFrequencies(const scene::Scene& scene, const mesh::Mesh& mesh, int count)
+    : scene_(scene), mesh_(&mesh), count_(count), interface_(scene.interface_nodes)
 {
   constexpr int all = 6;
+  scene_.interface_nodes = names_on_axis(scene, mesh);
+  scene_.ring_harmonics.clear();
+  scene_.body.interface_modes.clear();
+  scene_.deviations = {};
+  const bool is_whole = mesh.sectors.count == 1;
+  const plate::DofMap dofs =
+      plate::make_dof_map(mesh, {.couplings = scene.couplings, .components = scene.components},
+                          std::vector<int>(mesh.positions.size(), 0), 1);
+  plate::check_stiffness_of_all_nodes(mesh, dofs);
+  plate::refuse_drilling(mesh, dofs, scene.supports, scene.springs);
+  const std::vector<int> held = plate::held_dofs(mesh, dofs, scene.supports);
+  const auto free = plate::free_parts(mesh, dofs, held, scene.springs);
+  n_rigid_ = plate::n_free_motions(free);
+  const auto n_cut = static_cast<int>(std::ssize(mesh.sectors.pairs) * dofs.components().size());
+  n_dofs_ = is_whole ? dofs.n_dofs() : count * (dofs.n_dofs() - n_cut);
+  const bool is_free = n_rigid_ == all && free.size() == 1;
+  if (n_rigid_ > 0 && !is_free)
+    throw Error(fmt::format("the support leaves {} rigid-body motions of a sector", n_rigid_));
+  sector_ = std::make_shared<const SupportedSector>(supported_sector(
+      scene_, is_whole ? sector_of(scene_, mesh, count) : sector_model(scene_, mesh)));
+}
+
+std::optional<SectorFrequencies> SectorFrequencies::find(const scene::Scene& scene,
+                                                         const mesh::Mesh& mesh)
+{
+  if (mesh.sectors.count > 1) return SectorFrequencies(scene, mesh, mesh.sectors.count);
   if (scene.mesh.sector_search == mesh::SectorSearch::none) return std::nullopt;
   try {
-    const int count = mesh::n_repetitions(whole);
+    const int count = mesh::n_repetitions(mesh);
     if (count < least_sectors) return std::nullopt;
-    SectorFrequencies found(scene, whole, count);
-    found.interface_ = scene.interface_nodes;
-    found.scene_.interface_nodes = names_on_axis(scene, whole);
-    found.scene_.ring_harmonics.clear();
-    found.scene_.body.interface_modes.clear();
-    const plate::DofMap dofs =
-        plate::make_dof_map(whole, {.couplings = scene.couplings, .components = scene.components},
-                            std::vector<int>(whole.positions.size(), 0), 1);
-    plate::check_stiffness_of_all_nodes(whole, dofs);
-    plate::refuse_drilling(whole, dofs, scene.supports, scene.springs);
-    const std::vector<int> held = plate::held_dofs(whole, dofs, scene.supports);
-    const auto free = plate::free_parts(whole, dofs, held, scene.springs);
-    found.n_rigid_ = plate::n_free_motions(free);
-    found.n_dofs_ = dofs.n_dofs();
-    const bool is_free = found.n_rigid_ == all && free.size() == 1;
-    if (found.n_rigid_ > 0 && !is_free) return std::nullopt;
-    found.sector_ = std::make_shared<const SupportedSector>(
-        supported_sector(found.scene_, sector_of(found.scene_, whole, count)));
-    return found;
+    return SectorFrequencies(scene, mesh, count);
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -212,10 +227,10 @@ std::optional<MeshErrors> SectorFrequencies::errors_up_to(double omega,
 {
   const std::vector<ModesOfHarmonic> known = modes_up_to(*sector_, omega, n_rigid_ > 0, solver);
   const InterfaceOf interface {
-    *whole_, interface_
+    *mesh_, interface_
   };
   const auto modes_on = [&](const plate::RefinedMesh& refined, Asked) {
-    const SupportedSector other = sector_on(scene_, refined.mesh, count_);
+    const SupportedSector other = sector_on(scene_, refined.mesh, count_, *mesh_);
     const auto solve = [&](int order, Index n) {
       return elastic_modes(other, order, int(n) + 2, n_rigid_ > 0, solver);
     };
@@ -225,11 +240,12 @@ std::optional<MeshErrors> SectorFrequencies::errors_up_to(double omega,
   if (found.omega.size() == 0) return MeshErrors{};
   const bool is_large = sector_->model.dofs.n_dofs() > most_halved;
   try {
-    if (is_large && plate::can_rise(*whole_))
-      find_by_orders(*whole_, modes_on, found);
+    if (is_large && plate::can_rise(*mesh_))
+      find_by_orders(*mesh_, modes_on, found);
     else
-      find_by_halves(scene_, *whole_, modes_on, found);
+      find_by_halves(scene_, *mesh_, modes_on, found);
   } catch (const Error&) {  // of a refined mesh, on all ranks alike
+    if (mesh_->sectors.count > 1) throw;
     return std::nullopt;
   }
   return found;

@@ -65,9 +65,10 @@ class SectorFrequencies {
   /// rigid-body motions left by its supports, for a scene that cannot be reduced from one sector,
   /// and if sectors are not searched for.
   /// @param scene  with the supports under which the frequencies are meant
-  /// @param whole  must outlive this object
+  /// @param mesh   of the whole body or of one sector; must outlive this object
   /// @note   Collective on all ranks, as are all functions of this header.
-  static std::optional<SectorFrequencies> find(const scene::Scene& scene, const mesh::Mesh& whole);
+  /// @throws chladni::Error for a mesh of one sector, where it would be absent.
+  static std::optional<SectorFrequencies> find(const scene::Scene& scene, const mesh::Mesh& mesh);
 
   /// DOFs of the whole body.
   int n_dofs() const { return n_dofs_; }
@@ -82,12 +83,10 @@ class SectorFrequencies {
   std::optional<MeshErrors> errors_up_to(double omega, const linear::SolverOptions& solver) const;
 
  private:
-  SectorFrequencies(scene::Scene scene, const mesh::Mesh& whole, int count)
-      : scene_(std::move(scene)), whole_(&whole), count_(count)
-  {}
+  SectorFrequencies(const scene::Scene& scene, const mesh::Mesh& mesh, int count);
 
-  scene::Scene scene_;  ///< its only interface nodes are those on the axis
-  const mesh::Mesh* whole_;
+  scene::Scene scene_;      ///< its only interface nodes are those on the axis
+  const mesh::Mesh* mesh_;  ///< as it was given
   int count_;
   std::vector<std::string> interface_ = {};  ///< interface of the given scene
   std::shared_ptr<const SupportedSector> sector_ = {};

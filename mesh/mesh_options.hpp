@@ -259,9 +259,9 @@ struct MeshOptions {
   /// A .msh, .geo, .step or a file of another program, resolved against the folder of the scene
   /// file. All further members are about the file.
   std::optional<std::string> file = {};
-  std::optional<int> element_order = {};    ///< for a .geo or .step; a .msh has its own order
+  std::optional<int> element_order = {};    ///< for a .geo or .step; others are raised to it
   std::optional<double> element_size = {};  ///< m, for a .step; absent: Gmsh's choice
-  double size_factor = 1.0;                 ///< factor on the element sizes that a .geo sets
+  double size_factor = 1.0;                 ///< on the sizes of a .geo; others are halved
   std::vector<SizeAt> sizes = {};           ///< for a .geo or .step: smaller elements there
   std::vector<std::pair<std::string, double>> parameters = {};  ///< for a .geo, in its own units
   double length_unit = 1.0;                   ///< m per unit of the file; a .step states its unit
