@@ -115,6 +115,7 @@ BENCHMARKS = [
     ("sound", "Sound", sound, "sound_benchmarks"),
     ("source", "The figures of the source", script("source/gallery.py"), "gallery"),
     ("end-to-end", "End to end", script("end_to_end/frontier.py"), "end_to_end"),
+    ("scenes", "One accuracy for every scene", script("end_to_end/accuracy.py"), "accuracy"),
 ]
 
 

@@ -136,6 +136,14 @@ def end_to_end(found):
             f"{sum(c <= 1.3 for c in costs)} cost at most 1.3 times the cheapest choice by hand that keeps both, the dearest {max(costs):.2f} times"]
 
 
+def scenes(found):
+    given = [row for row in found["rows"] if "true" in row]
+    near = sum(row["told"] <= 5.0 * max(row["true"], 1e-7) for row in given)
+    return [f"{len(given)} of {len(found['rows'])} scenes that ask for an accuracy get an answer, {sum(row['true'] <= row['asked'] for row in given)} of "
+            "them with that accuracy",
+            f"the error that is told is at most five times the true one in {near} of these"]
+
+
 def ranks(found):
     last = max((r for r in found["runs"] if r["ranks"] <= 16), key=lambda r: (r["dofs"], r["ranks"]))
     further = [f"carried on to four million DOFs: {100 * found['carried_on'][n]:.0f} % efficiency on {n}" for n in ("16", "64")
@@ -189,7 +197,8 @@ def response_modes(found):
 
 MAKERS = {"elements": elements, "scale": scale, "ranks": ranks, "methods": methods, "rings": rings, "sectors": sectors,
           "many-modes": many_modes, "response-modes": response_modes, "accuracy": accuracy, "peers": peers, "calculix": calculix,
-          "body": body, "squeal": squeal, "sound": sound, "end-to-end": end_to_end}
+          "body": body, "squeal": squeal, "sound": sound, "end-to-end": end_to_end,
+          "scenes": scenes}
 
 
 def facts(name, results):

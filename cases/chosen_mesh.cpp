@@ -61,8 +61,11 @@ struct Trial {
 /// The search for a mesh.
 class Search {
  public:
-  Search(scene::Scene scene, const linear::SolverOptions& solver)
-      : scene_(std::move(scene)), solver_(solver), target_(share_of_mesh * scene_.accuracy->error)
+  Search(scene::Scene scene, const linear::SolverOptions& solver, Phases& phases)
+      : scene_(std::move(scene)),
+        solver_(solver),
+        phases_(phases),
+        target_(share_of_mesh * scene_.accuracy->error)
   {}
 
   /// Of the orders and edge rows that the scene leaves open, as meshes of about the first size tell
@@ -165,6 +168,7 @@ class Search {
   {
     MeshFrequencies frequencies = frequencies_on(size);
     if (const Trial* same = same_mesh(size, frequencies, true)) return *same;
+    show("errors of mesh", size);
     MeshErrors errors = frequencies.errors_up_to(two_pi * scene_.accuracy->up_to_Hz, solver_);
     const double largest = errors.largest();
     return kept({.size = size,
@@ -178,10 +182,16 @@ class Search {
   {
     MeshFrequencies frequencies = frequencies_on(size);
     if (const Trial* same = same_mesh(size, frequencies, false)) return *same;
+    show("frequencies of mesh", size);
     return kept({.size = size,
                  .n_dofs = frequencies.n_dofs(),
                  .error = error_against(known_, frequencies, solver_),
                  .errors = {}});
+  }
+
+  void show(const char* step, const MeshSize& size)
+  {
+    phases_.show_step(fmt::format("{} {}: {}", step, trials_.size() + 1, described(size)));
   }
 
   /// A trial of a mesh with as many elements, which takes the size for its own: generators round
@@ -282,6 +292,7 @@ class Search {
 
   scene::Scene scene_;
   linear::SolverOptions solver_;
+  Phases& phases_;
   double target_;
   bool takes_places_ = takes_local_sizes(scene_.mesh);
   std::vector<Trial> trials_;
@@ -301,9 +312,10 @@ std::string or_ask_for_less(double error_of_mesh)
 /// @param scene  with the supports under which its frequencies are meant
 /// @note   Collective.
 /// @throws chladni::Error when no mesh keeps the accuracy, with the error of the best one.
-FoundMesh search_mesh(const scene::Scene& scene, const linear::SolverOptions& solver)
+FoundMesh search_mesh(const scene::Scene& scene, const linear::SolverOptions& solver,
+                      Phases& phases)
 {
-  Search search(scene, solver);
+  Search search(scene, solver, phases);
   Trial trial = search.refined(search.start());
   return {.size = trial.size, .errors = std::move(trial.errors)};
 }
@@ -410,7 +422,7 @@ std::string described(const Split& into, const std::string& file)
 /// The mesh of a file that has its own, with its elements split until they keep the accuracy.
 /// @param own  the choice of `mesh`, whose errors are too large
 MeshChoice split_mesh(const scene::Scene& supported, const MeshChoice& own, const mesh::Mesh& mesh,
-                      const linear::SolverOptions& solver)
+                      const linear::SolverOptions& solver, Phases& phases)
 {
   constexpr int most_dofs = 400'000;
   const scene::Scene& scene = own.scene;
@@ -420,6 +432,7 @@ MeshChoice split_mesh(const scene::Scene& supported, const MeshChoice& own, cons
   for (const Split& into : keeps_numbers ? std::vector<Split>{} : ways_to_split(mesh)) {
     MeshFrequencies frequencies(supported, split(mesh, into));
     if (frequencies.n_dofs() > most_dofs) break;
+    phases.show_step("errors of " + described(into, *scene.mesh.file));
     MeshErrors errors = frequencies.errors_up_to(two_pi * scene.accuracy->up_to_Hz, solver);
     least = std::min(least, errors.largest());
     if (errors.largest() > allowed) continue;
@@ -438,7 +451,7 @@ MeshChoice split_mesh(const scene::Scene& supported, const MeshChoice& own, cons
 }
 
 MeshChoice own_mesh(const scene::Scene& supported, const scene::Scene& scene,
-                    const linear::SolverOptions& solver)
+                    const linear::SolverOptions& solver, Phases& phases)
 {
   const mesh::Mesh mesh = mesh_on_all_ranks(scene);
   MeshChoice choice{
@@ -449,7 +462,7 @@ MeshChoice own_mesh(const scene::Scene& supported, const scene::Scene& scene,
     tell_choice(choice, described({}, *scene.mesh.file) + told_shape(mesh));
     return choice;
   }
-  return split_mesh(supported, choice, mesh, solver);
+  return split_mesh(supported, choice, mesh, solver, phases);
 }
 
 }  // namespace
@@ -480,8 +493,8 @@ MeshChoice chosen_mesh(const scene::Scene& scene, const std::vector<plate::Suppo
   phases.begin("errors of the mesh");
   scene::Scene supported = scene;
   supported.supports = supports;
-  if (!scene.accuracy || !has_size(scene.mesh)) return own_mesh(supported, scene, solver);
-  FoundMesh found = search_mesh(supported, solver);
+  if (!scene.accuracy || !has_size(scene.mesh)) return own_mesh(supported, scene, solver, phases);
+  FoundMesh found = search_mesh(supported, solver, phases);
   MeshChoice choice{.scene = scene, .errors = std::move(found.errors)};
   set_size(choice.scene.mesh, found.size);
   tell_choice(choice, described(found.size));

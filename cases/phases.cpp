@@ -9,11 +9,17 @@ namespace chladni::cases {
 
 void Phases::begun(const std::string& name)
 {
-  name_ = name;
+  name_ = shown_ = name;
   MPI_Pcontrol(1, name.c_str());  // to tools that count by phases
   if (!progress_) return;
   progress_(name_, 0.0);
-  listener_.emplace([this](double fraction) { progress_(name_, fraction); });
+  listener_.emplace([this](double fraction) { progress_(shown_, fraction); });
+}
+
+void Phases::show_step(const std::string& step)
+{
+  shown_ = step;
+  if (progress_) progress_(shown_, 0.0);
 }
 
 void Phases::ended()

@@ -19,6 +19,8 @@ class Phases : public reduce::PhaseListener {
  public:
   explicit Phases(const ReduceProgress& progress) : progress_(progress) {}
 
+  /// Tells the progress of this phase under the name of a step of it, until the next one.
+  void show_step(const std::string& step);
   const std::vector<report::PhaseTime>& times() const { return clock_.phases(); }
   /// The time of the last phase of this name.
   const report::PhaseTime& time_of(const std::string& name) const;
@@ -28,7 +30,7 @@ class Phases : public reduce::PhaseListener {
   void ended() override;
 
   const ReduceProgress& progress_;
-  std::string name_;
+  std::string name_, shown_;
   std::optional<linear::ListenToProgress> listener_;
   report::PhaseClock clock_;
 };

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "mbs_export/attachment_dofs.hpp"
 #include "mbs_export/body_options.hpp"
@@ -17,9 +20,13 @@ namespace {
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 /// Receptances between all of them are compared at every frequency.
-constexpr std::size_t most_loads = 256;
+constexpr Index most_loads = 256;
 /// Of loads that vary over the nodes of a set.
 constexpr int highest_degree = 8;
+/// Sets of more nodes are edges or surfaces, at whose single nodes forces are a matter of the mesh.
+constexpr std::size_t few_nodes = highest_degree + 1;
+/// On such sets, contact rings apart, where the scene names none.
+constexpr Index most_on_edges = 96;
 
 /// Components that change among themselves when a ring is turned about z.
 constexpr std::array<std::array<int, 2>, 4> bundles{{{0, 1}, {2, 2}, {3, 4}, {5, 5}}};
@@ -91,19 +98,6 @@ MatrixXd harmonic(const VectorXd& angles, Index n)
   return F.colwise().normalized();
 }
 
-/// Places of these DOFs among the loads; new ones are appended.
-std::vector<Index> enlist(LoadedDofs& loads, const std::vector<int>& dofs, int component)
-{
-  std::vector<Index> places;
-  for (const int dof : dofs) {
-    places.push_back(std::ranges::find(loads.dofs, dof) - loads.dofs.begin());
-    if (places.back() < Index(loads.dofs.size())) continue;
-    loads.dofs.push_back(dof);
-    loads.is_moment.push_back(component >= 3);
-  }
-  return places;
-}
-
 std::vector<int> dofs_of(const ReducedSystem& reduced, const HeldDofs& held,
                          const std::vector<int>& nodes, int component)
 {
@@ -125,51 +119,6 @@ std::vector<Pattern> ring_patterns(const ContactRing& ring, const Pattern& loads
         {fmt::format("{}, {} diameters", loads.name, n), loads.loads, values, loads.Omega_0});
   }
   return patterns;
-}
-
-/// Enlists the loads of a ring and returns their harmonics.
-std::vector<Pattern> add_ring(LoadedDofs& loads, const ReducedSystem& reduced, const HeldDofs& held,
-                              const SetLoad& load, const ContactRing& ring)
-{
-  std::vector<Pattern> patterns;
-  for (const auto& bundle : bundles) {
-    Pattern together{load.set + ".", {}, {}, load.Omega_0};
-    for (const int component : load.components) {
-      if (component < bundle[0] || component > bundle[1]) continue;
-      together.name += component_name(component);
-      for (const Index i : enlist(loads, dofs_of(reduced, held, ring.nodes, component), component))
-        together.loads.push_back(i);
-    }
-    if (together.loads.empty()) continue;
-    for (Pattern& pattern : ring_patterns(ring, together)) patterns.push_back(std::move(pattern));
-  }
-  return patterns;
-}
-/// Enlists the loads of a set and returns each as a pattern of its own.
-std::vector<Pattern> add_set(LoadedDofs& loads, const ReducedSystem& reduced, const HeldDofs& held,
-                             const SetLoad& load)
-{
-  std::vector<Pattern> patterns;
-  const std::vector<int>& nodes = find_set(reduced, load.set).nodes;
-  for (const int component : load.components) {
-    const std::vector<Index> places =
-        enlist(loads, dofs_of(reduced, held, nodes, component), component);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      std::string name = fmt::format("{}.{}", load.set, component_name(component));
-      if (nodes.size() > 1)
-        name += fmt::format(" (node {})", reduced.attachment_nodes[std::size_t(nodes[i])].number);
-      patterns.push_back({name, {places[i]}, MatrixXd::Ones(1, 1), load.Omega_0});
-    }
-  }
-  return patterns;
-}
-
-LoadGroup group_of(const Pattern& pattern, Index n_loads)
-{
-  LoadGroup group{pattern.name, MatrixXd::Zero(n_loads, pattern.values.cols()), pattern.Omega_0};
-  for (std::size_t i = 0; i < pattern.loads.size(); ++i)
-    group.patterns.row(pattern.loads[i]) = pattern.values.row(Index(i));
-  return group;
 }
 
 /// Orthonormal fields over nodes that span the polynomials of x, y and z up to a degree.
@@ -200,56 +149,153 @@ MatrixXd polynomials(const ReducedSystem& reduced, const std::vector<int>& nodes
   return fields;
 }
 
-/// The nodes of each set loaded together, by polynomials up to a degree.
-LoadedDofs spread_loads(const ReducedSystem& reduced, LoadedDofs loads,
-                        const std::vector<SetLoad>& sets, const HeldDofs& held, int degree)
+LoadGroup group_of(const Pattern& pattern, Index n_loads)
 {
-  loads.is_moment.clear();
-  loads.names.clear();
-  loads.spread.resize(std::ssize(loads.dofs), 0);
-  std::vector<Pattern> patterns;
-  for (const SetLoad& load : sets) {
-    const std::vector<int>& nodes = find_set(reduced, load.set).nodes;
-    const MatrixXd fields = polynomials(reduced, nodes, degree);
-    for (const int component : load.components) {
-      loads.names.push_back(
-          fmt::format("{}.{} of degree {}", load.set, component_name(component), degree));
-      const Index first = loads.spread.cols();
-      loads.spread.conservativeResize(Eigen::NoChange, first + fields.cols());
-      loads.spread.rightCols(fields.cols()).setZero();
-      const std::vector<int> dofs = dofs_of(reduced, held, nodes, component);
-      for (std::size_t i = 0; i < dofs.size(); ++i) {
-        const Index row = std::ranges::find(loads.dofs, dofs[i]) - loads.dofs.begin();
-        loads.spread.row(row).tail(fields.cols()) = fields.row(Index(i));
+  LoadGroup group{pattern.name, MatrixXd::Zero(n_loads, pattern.values.cols()), pattern.Omega_0};
+  for (std::size_t i = 0; i < pattern.loads.size(); ++i)
+    group.patterns.row(pattern.loads[i]) = pattern.values.row(Index(i));
+  return group;
+}
+
+/// Which loads become polynomials of a degree: those of edges, or of contact rings too.
+struct Spreading {
+  int degree;
+  bool of_rings;
+};
+
+/// Collects the loads of sets.
+class LoadList {
+ public:
+  LoadList(const ReducedSystem& reduced, const HeldDofs& held, std::optional<Spreading> spreading)
+      : reduced_(reduced), held_(held), spreading_(spreading)
+  {}
+
+  void add(const SetLoad& load, const ContactRing* ring)
+  {
+    const std::vector<int>& nodes = find_set(reduced_, load.set).nodes;
+    const bool is_edge = ring == nullptr && nodes.size() > few_nodes;
+    const bool is_spread = spreading_ && (is_edge || (ring != nullptr && spreading_->of_rings));
+    const Index n_before = n_loads();
+    if (is_spread)
+      add_polynomials(load, polynomials(reduced_, nodes, spreading_->degree));
+    else if (ring != nullptr)
+      add_ring(load, *ring);
+    else
+      add_nodes(load, nodes);
+    const std::string degree =
+        is_spread ? fmt::format(" of degree {}", spreading_->degree) : std::string();
+    for (const int c : load.components)
+      loads_.names.push_back(fmt::format("{}.{}{}", load.set, component_name(c), degree));
+    if (is_edge) n_on_edges_ += n_loads() - n_before;
+  }
+
+  Index n_loads() const { return std::ssize(loads_.is_moment); }
+  Index n_on_edges() const { return n_on_edges_; }
+
+  LoadedDofs loads() const
+  {
+    LoadedDofs loads = loads_;
+    if (spreading_) {
+      loads.spread = MatrixXd::Zero(std::ssize(loads.dofs), n_loads());
+      for (const Eigen::Triplet<double>& force : forces_)
+        loads.spread(force.row(), force.col()) = force.value();
+    }
+    for (const Pattern& pattern : patterns_) loads.groups.push_back(group_of(pattern, n_loads()));
+    return loads;
+  }
+
+ private:
+  /// Places of these DOFs among the loaded ones; new ones are appended.
+  std::vector<Index> enlisted(const std::vector<int>& nodes, int component)
+  {
+    std::vector<Index> places;
+    for (const int dof : dofs_of(reduced_, held_, nodes, component)) {
+      places.push_back(std::ranges::find(loads_.dofs, dof) - loads_.dofs.begin());
+      if (places.back() == std::ssize(loads_.dofs)) loads_.dofs.push_back(dof);
+    }
+    return places;
+  }
+
+  /// Places of the loads of these nodes, each by itself; new ones are appended.
+  std::vector<Index> single(const std::vector<int>& nodes, int component)
+  {
+    std::vector<Index> places;
+    for (const Index dof : enlisted(nodes, component)) {
+      const auto [known, is_new] = single_.try_emplace(dof, n_loads());
+      places.push_back(known->second);
+      if (!is_new) continue;
+      forces_.emplace_back(int(dof), int(n_loads()), 1.0);
+      loads_.is_moment.push_back(component >= 3);
+    }
+    return places;
+  }
+
+  /// The harmonics of a ring.
+  void add_ring(const SetLoad& load, const ContactRing& ring)
+  {
+    for (const auto& bundle : bundles) {
+      Pattern together{load.set + ".", {}, {}, load.Omega_0};
+      for (const int component : load.components) {
+        if (component < bundle[0] || component > bundle[1]) continue;
+        together.name += component_name(component);
+        for (const Index i : single(ring.nodes, component)) together.loads.push_back(i);
       }
-      for (Index j = 0; j < fields.cols(); ++j) {
-        loads.is_moment.push_back(component >= 3);
-        patterns.push_back({fmt::format("{}.{}, field {}", load.set, component_name(component), j),
-                            {first + j},
-                            MatrixXd::Ones(1, 1),
-                            load.Omega_0});
+      if (together.loads.empty()) continue;
+      for (Pattern& pattern : ring_patterns(ring, together))
+        patterns_.push_back(std::move(pattern));
+    }
+  }
+
+  void add_nodes(const SetLoad& load, const std::vector<int>& nodes)
+  {
+    for (const int component : load.components) {
+      const std::vector<Index> places = single(nodes, component);
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        std::string name = fmt::format("{}.{}", load.set, component_name(component));
+        if (nodes.size() > 1) {
+          name +=
+              fmt::format(" (node {})", reduced_.attachment_nodes[std::size_t(nodes[i])].number);
+        }
+        patterns_.push_back({name, {places[i]}, MatrixXd::Ones(1, 1), load.Omega_0});
       }
     }
   }
-  loads.groups.clear();
-  for (const Pattern& pattern : patterns)
-    loads.groups.push_back(group_of(pattern, loads.spread.cols()));
-  return loads;
-}
 
-/// By polynomials of the highest degree that a selection can compare.
-LoadedDofs spread_over_sets(const ReducedSystem& reduced, const LoadedDofs& loads,
-                            const std::vector<SetLoad>& sets, const HeldDofs& held)
-{
-  for (int degree = highest_degree; degree >= 0; --degree) {
-    LoadedDofs spread = spread_loads(reduced, loads, sets, held, degree);
-    if (spread.is_moment.size() <= most_loads) return spread;
+  void add_polynomials(const SetLoad& load, const MatrixXd& fields)
+  {
+    const std::vector<int>& nodes = find_set(reduced_, load.set).nodes;
+    for (const int component : load.components) {
+      const std::vector<Index> places = enlisted(nodes, component);
+      for (Index j = 0; j < fields.cols(); ++j) {
+        for (Index i = 0; i < fields.rows(); ++i)
+          forces_.emplace_back(int(places[std::size_t(i)]), int(n_loads()), fields(i, j));
+        patterns_.push_back({fmt::format("{}.{}, field {}", load.set, component_name(component), j),
+                             {n_loads()},
+                             MatrixXd::Ones(1, 1),
+                             load.Omega_0});
+        loads_.is_moment.push_back(component >= 3);
+      }
+    }
   }
-  throw BodyOptionError(
-      "keep.tolerance",
-      fmt::format("{} sets are loaded, with more components than the {} loads that a tolerance can "
-                  "compare; name those that matter by interface_modes",
-                  sets.size(), most_loads));
+
+  const ReducedSystem& reduced_;
+  const HeldDofs& held_;
+  std::optional<Spreading> spreading_;
+  LoadedDofs loads_;
+  std::map<Index, Index> single_;  ///< the load of a DOF by itself
+  std::vector<Eigen::Triplet<double>> forces_;
+  std::vector<Pattern> patterns_;
+  Index n_on_edges_ = 0;
+};
+
+/// Each DOF by itself, then edges by polynomials, the highest degree first, then rings as well.
+std::vector<std::optional<Spreading>> ways_to_load()
+{
+  std::vector<std::optional<Spreading>> ways{std::nullopt};
+  for (const bool of_rings : {false, true})
+    for (int degree = highest_degree; degree >= 0; --degree)
+      ways.emplace_back(Spreading{.degree = degree, .of_rings = of_rings});
+  return ways;
 }
 
 }  // namespace
@@ -277,22 +323,23 @@ LoadedDofs loaded_dofs(const ReducedSystem& reduced, const HeldDofs& held,
 {
   const std::vector<ContactRing> rings =
       contact_rings(reduced, MatrixXd(6 * Index(reduced.attachment_nodes.size()), 0));
-  LoadedDofs loads;
-  std::vector<Pattern> patterns;
   const std::vector<SetLoad> sets =
       wanted.empty() ? default_loads(reduced, held, rings) : loads_of(wanted);
-  for (const SetLoad& load : sets) {
-    const auto ring = std::ranges::find(rings, load.set, &ContactRing::name);
-    for (Pattern& pattern : ring != rings.end() ? add_ring(loads, reduced, held, load, *ring)
-                                                : add_set(loads, reduced, held, load))
-      patterns.push_back(std::move(pattern));
-    for (const int component : load.components)
-      loads.names.push_back(fmt::format("{}.{}", load.set, component_name(component)));
+  for (const std::optional<Spreading>& way : ways_to_load()) {
+    LoadList list(reduced, held, way);
+    for (const SetLoad& load : sets) {
+      const auto ring = std::ranges::find(rings, load.set, &ContactRing::name);
+      list.add(load, ring != rings.end() ? &*ring : nullptr);
+    }
+    const bool are_named = !wanted.empty();
+    if (list.n_loads() <= most_loads && (are_named || list.n_on_edges() <= most_on_edges))
+      return list.loads();
   }
-  if (loads.dofs.size() > most_loads) return spread_over_sets(reduced, loads, sets, held);
-  for (const Pattern& pattern : patterns)
-    loads.groups.push_back(group_of(pattern, Index(loads.dofs.size())));
-  return loads;
+  throw BodyOptionError(
+      "keep.tolerance",
+      fmt::format("{} sets are loaded, with more components than a tolerance can compare; name "
+                  "those that matter by interface_modes",
+                  sets.size()));
 }
 
 }  // namespace chladni::mbs_export

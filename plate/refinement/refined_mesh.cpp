@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -218,14 +219,23 @@ EdgeCuts::EdgeCuts(const mesh::Mesh& mesh, const std::vector<double>& rows)
     : mesh_(mesh), rows_(rows), is_free_(mesh.positions.size(), 0)
 {
   if (rows.empty()) return;
+  std::vector<int> low_of(mesh.positions.size());  // at the cut edges of a sector, where it goes on
+  std::iota(low_of.begin(), low_of.end(), 0);
+  for (const auto& [low, high] : mesh.sectors.pairs) low_of[static_cast<std::size_t>(high)] = low;
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (!mesh::is_surface(block.shape)) continue;
-    for (int e = 0; e < block.n_elements(); ++e)
-      for (const std::vector<int>& edge : mesh::edges_of(block, e)) ++n_elements_[key_of(edge)];
+    for (int e = 0; e < block.n_elements(); ++e) {
+      for (std::vector<int>& edge : mesh::edges_of(block, e)) {
+        for (int& node : edge) node = low_of[static_cast<std::size_t>(node)];
+        ++n_elements_[key_of(edge)];
+      }
+    }
   }
   for (const auto& [edge, n] : n_elements_)
     if (n == 1)
       for (const int node : edge) is_free_[static_cast<std::size_t>(node)] = 1;
+  for (const auto& [low, high] : mesh.sectors.pairs)
+    is_free_[static_cast<std::size_t>(high)] = is_free_[static_cast<std::size_t>(low)];
 }
 
 double EdgeCuts::cut(const std::vector<int>& edge) const

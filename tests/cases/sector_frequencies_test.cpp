@@ -8,6 +8,8 @@
 
 #include "cases/chosen_mesh.hpp"
 #include "cases/scene_mesh.hpp"
+#include "common/error.hpp"
+#include "mesh/sectors.hpp"
 
 namespace chladni::cases {
 namespace {
@@ -207,6 +209,51 @@ TEST(SectorFrequencies, AreTheWholeBodysWhereARefinedMeshDoesNotRepeat)
   const MeshErrors theirs = of_whole.errors_up_to(two_pi * 5000.0, {});
   ASSERT_EQ(ours.omega.size(), theirs.omega.size());
   EXPECT_LT((ours.errors - theirs.errors).cwiseAbs().maxCoeff(), 0.03 * theirs.largest());
+}
+
+/// The mesh of a file or generator may be that of one sector.
+TEST(SectorFrequencies, OfAMeshOfOneSectorAreThoseOfTheWhole)
+{
+  const auto expect_those_of = [](const scene::Scene& scene, const mesh::Mesh& whole) {
+    const mesh::Mesh one = mesh::one_sector(whole, mesh::n_repetitions(whole));
+    const auto ours = SectorFrequencies::find(scene, one),
+               theirs = SectorFrequencies::find(scene, whole);
+    ASSERT_TRUE(ours && theirs);
+    EXPECT_EQ(ours->n_dofs(), theirs->n_dofs());
+    const MeshErrors of_one = ours->errors_up_to(two_pi * 6000.0, {}).value(),
+                     of_whole = theirs->errors_up_to(two_pi * 6000.0, {}).value();
+    ASSERT_EQ(of_one.omega.size(), of_whole.omega.size());
+    EXPECT_LT((of_one.omega - of_whole.omega).cwiseQuotient(of_whole.omega).cwiseAbs().maxCoeff(),
+              1e-8);
+    EXPECT_LT((of_one.errors - of_whole.errors).cwiseAbs().maxCoeff(), 1e-6 * of_whole.largest());
+  };
+  const scene::Scene scene = held(annulus(0.03));
+  expect_those_of(scene, mesh_on_all_ranks(scene));
+  expect_those_of(scene, twisted(mesh_on_all_ranks(scene)));
+  // Large elements are cut at free edges, which the edges of the sector are not.
+  const scene::Scene large = held(annulus(0.08));
+  expect_those_of(large, mesh_on_all_ranks(large));
+}
+
+TEST(SectorFrequencies, OfAMeshOfOneSectorAreRefusedWhereTheSupportDoesNotTurn)
+{
+  const scene::Scene scene = held(annulus(0.03), {0, 1});
+  const mesh::Mesh whole = mesh_on_all_ranks(scene);
+  const mesh::Mesh one = mesh::one_sector(whole, mesh::n_repetitions(whole));
+  EXPECT_THROW(SectorFrequencies::find(scene, one), Error);
+}
+
+TEST(Split, OfOneSectorKeepsItsCutEdges)
+{
+  const scene::Scene scene = annulus(0.03);
+  const mesh::Mesh whole = mesh_on_all_ranks(scene);
+  const mesh::Mesh one = mesh::one_sector(whole, mesh::n_repetitions(whole));
+  const mesh::Mesh finer = split(one, {.order = 3, .halvings = 1});
+  EXPECT_EQ(finer.sectors.count, one.sectors.count);
+  // 3 intervals for 2, of twice as many elements.
+  EXPECT_EQ(finer.sectors.pairs.size(), 3 * (one.sectors.pairs.size() - 1) + 1);
+  EXPECT_EQ(finer.blocks.front().order, 3);
+  EXPECT_EQ(finer.blocks.front().n_elements(), 4 * one.blocks.front().n_elements());
 }
 
 TEST(SectorFrequencies, AreNotThoseOfASupportThatDoesNotTurn)

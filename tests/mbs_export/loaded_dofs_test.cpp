@@ -138,9 +138,38 @@ TEST(LoadedDofs, OfManyNodesOnASurfaceHaveALowerDegree)
   for (std::size_t i = 0; i < face.attachment_nodes.size(); ++i)
     face.attachment_nodes[i].position[2] = std::cos(7.0 * double(i));
   const LoadedDofs loads = loads_of(face, {}, {});
-  // Degree 7: 36 fields for each of 6 components; degree 8 would be 270 loads.
-  EXPECT_EQ(loads.spread.cols(), 6 * 36);
-  EXPECT_EQ(loads.names.back(), "edge.rz of degree 7");
+  // Degree 4: 15 fields for each of 6 components; degree 5 would be 126 loads.
+  EXPECT_EQ(loads.spread.cols(), 6 * 15);
+  EXPECT_EQ(loads.names.back(), "edge.rz of degree 4");
+}
+
+TEST(LoadedDofs, OfAnEdgeAreSpreadBesideThoseOfARing)
+{
+  const int n = 50, n_ring = 40;
+  ReducedSystem both = nodes_on_a_line(n);
+  both.sets.push_back({.name = "track", .nodes = {}});
+  for (int i = 0; i < n_ring; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / n_ring;
+    both.attachment_nodes.push_back(
+        {.number = n + i + 1, .position = {std::cos(angle), std::sin(angle), 0.0}});
+    both.sets[1].nodes.push_back(n + i);
+    for (int c = 0; c < 6; ++c) both.masters.push_back({.node = n + i, .component = c});
+  }
+  const LoadedDofs loads = loads_of(both, {}, {});
+  EXPECT_EQ(loads.names.back(), "track.z");
+  ASSERT_EQ(loads.spread.cols(), 54 + n_ring);
+  EXPECT_EQ(loads.spread.rightCols(n_ring).cwiseAbs().colwise().sum().minCoeff(), 1.0);
+  // Its harmonics are groups as without the edge.
+  EXPECT_EQ(loads.groups.back().name, "track.z, 20 diameters");
+  // The scene may name each node of the edge.
+  const LoadedDofs named = loads_of(both, {}, {frm_of("edge", {0, 1, 2})});
+  EXPECT_EQ(named.dofs.size(), 150u);
+  EXPECT_EQ(named.spread.size(), 0);
+}
+
+TEST(LoadedDofs, OfFewNodesAreEachByItself)
+{
+  EXPECT_EQ(loads_of(nodes_on_a_line(16), {}, {}).spread.size(), 0);
 }
 
 TEST(LoadedDofs, AreNoneWhereTheSupportHoldsAll)
