@@ -5,10 +5,10 @@ usage: bench.py [--quick] [--only NAME ...] [--pages | --check] OUTPUT
 
 Each benchmark writes its page and its JSON into OUTPUT. OUTPUT/results.json has the machine, the versions, and of each
 benchmark commit, date, seconds and the digest of its JSON. OUTPUT/README.md is an index that is made of these files alone:
-for each page a link and a few lines. With --quick small sizes are run, into a folder of their own, to see that everything
+for each page a link and a few lines. Each page names its run below its heading. With --quick small sizes are run, into a folder of their own, to see that everything
 works; the figures that documents show come from full runs. With --only the others stay as they were. With --pages nothing
-is run: index and README.md are made of the files that are there; with --check they must be what these files give. The three lines of the README.md of the project are
-written when OUTPUT is docs/results.
+is run: all that is written besides the pages is made of the files that are there; with --check it must be what these files give. The three lines of
+the README.md of the project and what other pages of docs/ quote are written when OUTPUT is docs/results.
 """
 import argparse
 import hashlib
@@ -16,6 +16,7 @@ import json
 import os
 import pathlib
 import platform
+import re
 import subprocess
 import sys
 import tempfile
@@ -160,7 +161,7 @@ def commit():
 
 def run_one(name, title, work, stem, out, quick):
     print(f"== {title}", flush=True)
-    stamp = {"title": title, "commit": commit(), "date": time.strftime("%Y-%m-%d")}
+    stamp = {"title": title, "commit": commit(), "date": time.strftime("%Y-%m-%d"), "machine": named(machine())}
     start, load = time.time(), os.getloadavg()[0]
     written = [out / f"{stem}.md", out / f"{stem}.json"]
     before = {path: path.stat().st_mtime_ns for path in written if path.exists()}
@@ -180,14 +181,40 @@ def digest(path):
     return hashlib.sha256(path.read_bytes()).hexdigest()[:16]
 
 
+def named(machine):
+    """A machine in a few words, however a file of results describes it; nothing where it does not."""
+    if isinstance(machine, str):
+        return machine
+    return f"{machine['processor']}, {machine['cores']} cores" if isinstance(machine, dict) and "processor" in machine else ""
+
+
 def stamp_of(name, path, recorded):
-    """Commit, date, seconds and load of the results in a file; of those that were not written here what the file says."""
-    stamp = recorded.get(name, {})
-    if stamp.get("digest") == digest(path):
-        return stamp
+    """Commit, date, machine, seconds and load of the results in a file; of those that were not written here what the file says."""
     found = json.loads(path.read_text(encoding="utf-8"))
     machine = found.get("machine", {}) if isinstance(found, dict) else {}
-    return {"commit": machine.get("commit") if isinstance(machine, dict) else None}
+    own = {"machine": named(machine), "commit": machine.get("commit") if isinstance(machine, dict) else None}
+    stamp = recorded.get(name, {})
+    return {**own, **{key: value for key, value in stamp.items() if value}} if stamp.get("digest") == digest(path) else own
+
+
+RUN = re.compile(r"\A(# [^\n]*\n\n)(?:\*Run: [^\n]*\*\n\n)?")
+
+
+def with_run(page, stamp):
+    """The text of a page with the line below its heading that says where its numbers come from."""
+    if "in_commit" in stamp:
+        of = f"commit not recorded, numbers stored by {stamp['in_commit']}"
+    else:
+        of = f"commit {stamp['commit']}" if stamp.get("commit") else "commit not recorded"
+    line = f"*Run: {of}{', ' + stamp['date'] if 'date' in stamp else ''}; machine: {stamp.get('machine') or 'not recorded'}.*"
+    return RUN.sub(lambda head: f"{head[1]}{line}\n\n", page.read_text(encoding="utf-8"))
+
+
+def pages(out, recorded):
+    """Each page of results beside a file of numbers, with its run."""
+    names = {stem: name for name, _, _, stem in BENCHMARKS}
+    both = [path for path in sorted(out.glob("*.json")) if path.with_suffix(".md").exists()]
+    return [(path.with_suffix(".md"), with_run(path.with_suffix(".md"), stamp_of(names.get(path.stem, path.stem), path, recorded))) for path in both]
 
 
 def section(name, title, stem, out, recorded):
@@ -207,12 +234,12 @@ def heading(page):
 
 def runs(out, recorded):
     """When each benchmark ran."""
-    lines = ["| page | commit | date | s | load before |", "|---|---|---|---|---|"]
+    lines = ["| page | commit | machine | date | s | load before |", "|---|---|---|---|---|---|"]
     for name, title, _, stem in BENCHMARKS:
         if (out / f"{stem}.json").exists():
             stamp = stamp_of(name, out / f"{stem}.json", recorded)
             seconds, load = (f"{stamp[key]:{form}}" if key in stamp else "" for key, form in (("seconds", ".0f"), ("load_before", ".1f")))
-            lines.append(f"| [{title}]({stem}.md) | {stamp.get('commit') or ''} | {stamp.get('date', '')} | {seconds} | {load} |")
+            lines.append(f"| [{title}]({stem}.md) | {stamp.get('commit') or ''} | {stamp.get('machine', '')} | {stamp.get('date', '')} | {seconds} | {load} |")
     return lines
 
 
@@ -233,7 +260,7 @@ def index(out, results):
     if others(out):
         lines += ["## Other pages that programs write", "", *others(out), ""]
     return "\n".join([
-        *lines, "## Runs", "", "Empty cells: the benchmark was run by itself, and its page says what it knows.", "", *runs(out, recorded), "",
+        *lines, "## Runs", "", "A cell is empty where nothing was recorded, as when a benchmark was run by itself.", "", *runs(out, recorded), "",
         "| machine and software of the last run | |", "|---|---|",
         f"| processor | {about['processor']}, {about['cores']} cores, {about['memory_GiB']} GiB |",
         f"| system | {about['system']} |", f"| transparent huge pages | {about['huge_pages'] or 'none'} |",
@@ -249,21 +276,24 @@ def earlier(out):
 
 def write(out, results):
     (out / "results.json").write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
-    (out / "README.md").write_text(index(out, results), encoding="utf-8")
+    for page, text in [*pages(out, results["benchmarks"]), (out / "README.md", index(out, results))]:
+        page.write_text(text, encoding="utf-8")
 
 
-def readme(out):
-    """The project's README.md with its three lines of the results in a folder."""
-    read = lambda name: json.loads((out / f"{name}.json").read_text(encoding="utf-8"))
-    found = {name: read(stem) for name, _, _, stem in BENCHMARKS if name in ("scale", "peers", "squeal")}
-    return claims.put_into((ROOT / "README.md").read_text(encoding="utf-8"), found)
+def quoting(out):
+    """README.md with its three lines of the results in a folder, and every other page of docs/ that quotes them."""
+    found = {name: claims.read(out, stem) for name, _, _, stem in BENCHMARKS if name in ("scale", "peers", "squeal")}
+    texts = {path: path.read_text(encoding="utf-8") for path in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))] if out not in path.parents}
+    texts[ROOT / "README.md"] = claims.put_into(texts[ROOT / "README.md"], found)
+    return [(path, claims.quote(text, out)) for path, text in texts.items()]
 
 
 def check(out):
     """Whether the pages that are made of the results are theirs."""
-    old = [path for path, text in ((out / "README.md", index(out, earlier(out))), (ROOT / "README.md", readme(out)))
-           if path.read_text(encoding="utf-8") != text]
-    print("\n".join(f"FAILED: {path} is out of date: ./dev bench pages" for path in old) or "index and README.md are those of the results")
+    results = earlier(out)
+    made = [*pages(out, results["benchmarks"]), (out / "README.md", index(out, results)), *quoting(out)]
+    old = [path for path, text in made if path.read_text(encoding="utf-8") != text]
+    print("\n".join(f"FAILED: {path} is out of date: ./dev bench pages" for path in old) or f"{len(made)} pages are those of the results")
     return 1 if old else 0
 
 
@@ -276,7 +306,7 @@ def main():
     parser.add_argument("--check", action="store_true")
     parser.add_argument("output", type=pathlib.Path)
     arguments = parser.parse_args()
-    out = arguments.output
+    out = arguments.output.resolve()
     if arguments.check:
         return check(out)
     (out / "figures").mkdir(parents=True, exist_ok=True)
@@ -291,9 +321,9 @@ def main():
             if not arguments.only or name in arguments.only:
                 results["benchmarks"][name] = run_one(name, title, work, stem, out, arguments.quick)
                 write(out, results)
-    if out.resolve() == ROOT / "docs/results":
-        text = readme(out)
-        (ROOT / "README.md").write_text(text, encoding="utf-8")
+    if out == ROOT / "docs/results":
+        for path, text in quoting(out):
+            path.write_text(text, encoding="utf-8")
     return 1 if any("failed" in found for found in results["benchmarks"].values()) else 0
 
 

@@ -1,4 +1,5 @@
-"""What the index of docs/results/ and README.md say of speed and accuracy, each sentence made of the results of `./dev bench`."""
+"""What the index of docs/results/, README.md and other pages say of speed and accuracy, each sentence made of the results of `./dev bench`."""
+import json
 import re
 from decimal import ROUND_CEILING, Context, Decimal
 from itertools import takewhile
@@ -229,3 +230,46 @@ def put_into(text, results):
     if n != 1:
         raise SystemExit("claims.py: README.md has no marks for the lines of results")
     return new
+
+
+def largest_disc(folder):
+    size, memory = scale(read(folder, "reduction_scale"))
+    return f"{size.split(' to ')[0]}: {size.split(': ')[1].split(',')[0]} and {memory.split(': ')[1]}"
+
+
+def faster_modes(folder):
+    """How many times the CPU time of Krylov-Schur is that of block Lanczos."""
+    ratios = []
+    for case in read(folder, "reduction_many_modes")["cases"]:
+        of = {row["method"]: row["cpu_s"] for row in case["rows"]}
+        ratios.append(f"{of['Krylov-Schur'] / of['block Lanczos']:.1f} times for {case['modes']} modes")
+    return ", ".join(ratios)
+
+
+def kept_tolerances(folder):
+    return end_to_end(read(folder, "end_to_end"))[0]
+
+
+def minutes_of_demo(folder):
+    """As the log of a newcomer has it, who has the packages and no compiler cache."""
+    log = (folder / "newcomer.md").read_text(encoding="utf-8")
+    return f"{float(re.search(r'## `./dev demo`[^0-9]*([0-9]+) s', log)[1]) / 60:.0f} minutes on {re.search(r'- machine: .*, ([0-9]+ cores)', log)[1]}"
+
+
+def minutes_of_first_steps(folder):
+    return re.search(r"after ([0-9]+ minutes) in all", (folder / "newcomer.md").read_text(encoding="utf-8"))[1]
+
+
+def read(folder, stem):
+    return json.loads((folder / f"{stem}.json").read_text(encoding="utf-8"))
+
+
+# Pieces of sentences that pages quote between <!-- bench: NAME --> and <!-- end -->.
+QUOTES = {"largest disc": largest_disc, "block lanczos": faster_modes, "tolerances": kept_tolerances, "demo": minutes_of_demo,
+          "first steps": minutes_of_first_steps}
+QUOTED = re.compile(r"(<!-- bench: ([\w ]+) -->)(.*?)(<!-- end -->)", re.S)
+
+
+def quote(text, folder):
+    """The text of a page with all that it quotes as the results of a folder have it."""
+    return QUOTED.sub(lambda found: found[1] + QUOTES[found[2]](folder) + found[4], text)
