@@ -11,6 +11,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 LIBRARY = ROOT / "examples/library"
+sys.path.insert(0, str(ROOT / "tests/integration"))
+import plugin_page  # noqa: E402
 
 
 def run(*command, **options):
@@ -68,6 +70,16 @@ def use_pkg_config(prefix, folder, body):
     require(True, "pkg-config chladni-petsc")
 
 
+def use_plugin_page(prefix, folder):
+    """The program of docs/how-to/plugin.md, compiled as the page says of an installed library."""
+    folder = folder / "page"
+    folder.mkdir()
+    by_pkg_config = next(block for block in plugin_page.blocks("sh") if "PKG_CONFIG_PATH" in block)
+    plugin_page.runs(folder, by_pkg_config.replace("/opt/chladni", str(prefix)), {})
+    (folder / "CMakeLists.txt").write_text(plugin_page.blocks("cmake")[0])
+    plugin_page.runs(folder, f"cmake -B build -DCMAKE_PREFIX_PATH={prefix}\ncmake --build build\nmv build/reduce .", {})
+
+
 def use_debs(build, folder):
     run("cpack", "--config", build / "CPackConfig.cmake", "-B", folder / "debs")
     debs = {file.name.split("_")[0]: file for file in (folder / "debs").glob("*.deb")}
@@ -98,6 +110,7 @@ def main(build):
         body = use_programs(prefix, folder)
         use_libraries(prefix, folder, body)
         use_pkg_config(prefix, folder, body)
+        use_plugin_page(prefix, folder)
         use_debs(build, folder)
 
 

@@ -286,6 +286,8 @@ def matrix_market(plugin):
                 yield expect("a body from them", np.allclose(body, held[: body.size], rtol=1e-9))
             unsound = list(failed_checks(plugin.chladni.parent, folder))
             yield expect("both files are sound", not unsound, *unsound)
+            again = numbers(plugin.run([PYTHON, SOURCE / "examples/plugin/reread.py", "chain.reduced.h5"], folder=folder).replace("Hz, error", ""))
+            yield expect("the matrices of the file in PETSc again", np.allclose(again[:5, 0], found[:5, 0], rtol=1e-10))
             with h5py.File(folder / "chain.reduced.h5") as file:
                 masters = file["attachment/node_numbers"][file["masters/node"][:]]
                 yield expect("masters in the order given", list(masters) == [59, 19])
