@@ -24,6 +24,7 @@ ELSEWHERE = {
     "solid_disc": "solids.py",
     "read_body.py": "../cli/chladni_export_test.cpp",
     "thesis_disc": "thesis_disc.py",
+    "vented_disc": "tutorial.py",
 }
 HERE = {"mechanisms", "tilting_block", "two_masses"}
 

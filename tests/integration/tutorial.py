@@ -1,7 +1,7 @@
-"""Runs docs/tutorial/brake.md: writes its files, runs its commands. What they print must be what stands there, but
-for the digits of numbers; --update writes it into the tutorial instead.
+"""Runs pages of docs/tutorial/: writes their files, runs their commands in a folder that has the examples. What they print must be what
+stands there, but for the digits of numbers; --update writes it into the pages instead. They run examples/solid_disc and vented_disc.
 
-Usage: tutorial.py PROGRAM_DIR [--update]
+Usage: tutorial.py PROGRAM_DIR [--update] [PAGE...]
 """
 
 import difflib
@@ -12,7 +12,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-TUTORIAL = Path(__file__).parents[2] / "docs/tutorial/brake.md"
+ROOT = Path(__file__).parents[2]
+PAGES = ("brake", "solid_disc", "vented_disc")
 BLOCK = re.compile(r"^```(\w+) ?(\S*)\n(.*?)^```\n(?:\n```text\n.*?^```\n)?", re.M | re.S)
 # Times and memory differ from run to run, and a slow machine tells its progress.
 VOLATILE = re.compile(r"^(phase |\d+ s: +\d+ % |CPU of the factorisation|.* \d+\.\d{3} +\d+\.\d{3}$|peak memory)")
@@ -46,23 +47,31 @@ def without_numbers(text):
     return [re.sub("#+", "#", line) for line in numberless]  # the bars of a histogram too
 
 
-def main(programs, update=False):
-    tutorial = TUTORIAL.read_text()
+def performed(text, programs):
+    """The text of a page with what its commands print now."""
     with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "examples").symlink_to(ROOT / "examples")
 
         def replaced(match):
             printed = perform(match.groups(), Path(folder), programs)
             head = f"```{match[1]}{' ' + match[2] if match[2] else ''}\n{match[3]}```\n"
             return head if printed is None else f"{head}\n```text\n{printed}\n```\n"
 
-        written = BLOCK.sub(replaced, tutorial)
-    if update:
-        TUTORIAL.write_text(written)
-        return
-    changes = list(difflib.unified_diff(without_numbers(tutorial), without_numbers(written), "tutorial", "printed", n=0))
-    if changes:
-        sys.exit("FAILED: the programs print something else; ./dev pages writes it anew\n" + "\n".join(changes))
+        return BLOCK.sub(replaced, text)
+
+
+def main(programs, *arguments):
+    for name in [word for word in arguments if word != "--update"] or PAGES:
+        page = ROOT / f"docs/tutorial/{name}.md"
+        text = page.read_text()
+        written = performed(text, programs)
+        if "--update" in arguments:
+            page.write_text(written)
+            continue
+        changes = list(difflib.unified_diff(without_numbers(text), without_numbers(written), f"{name}.md", "printed", n=0))
+        if changes:
+            sys.exit("FAILED: the programs print something else; ./dev pages writes it anew\n" + "\n".join(changes))
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]).resolve(), "--update" in sys.argv)
+    main(Path(sys.argv[1]).resolve(), *sys.argv[2:])
