@@ -53,9 +53,19 @@ def table(entries):
     return "\n".join(lines)
 
 
+# The script of each figure, by the beginning of its number; the first that fits.
+SCRIPTS = {"2": "minimal_models", "3": "rigid", "4": "beams", "5.3": "plates", "5.4": "plates", "5.14": "sounds", "5.15": "sounds",
+           "5.16": "sounds", "5": "discs"}
+
+
+def script_of(entry):
+    return next(script for figure, script in SCRIPTS.items() if f"{entry.figure}.".startswith((f"{figure}.", f"{figure},")))
+
+
 def section(entry):
     images = "\n\n".join(f"![{entry.title}](figures/{image})" for image in entry.images)
-    return "\n".join([f"## Figure {entry.figure}: {entry.title}", "", images, "", *([entry.remark, ""] if entry.remark else [])])
+    return "\n".join([f"## Figure {entry.figure}: {entry.title}", "", images, "", *([entry.remark, ""] if entry.remark else []),
+                      f"Script: `benchmarks/source/{script_of(entry)}.py`.", ""])
 
 
 def markdown(entries, quick):
@@ -63,6 +73,8 @@ def markdown(entries, quick):
         "# The figures of the source", "",
         f"Written by `benchmarks/source/gallery.py`{' --quick' if quick else ''}; ours are numbers of the programs, those of the source are of the text of Steinbrecher 2015 "
         "([theory](../explanation/theory.md)). Where its text has no number the column is empty. Reasons for what differs stand below each figure.", "",
+        "One command makes all of them: `./dev build`, then `/usr/bin/python3 benchmarks/source/gallery.py out`, which writes this page to `out/gallery.md` and the "
+        "figures to `out/figures/`; with `--keep FOLDER` the result files of the programs stay. The script below a figure has its scenes.", "",
         table(entries), "", *map(section, entries), NOT_REPRODUCED])
 
 
