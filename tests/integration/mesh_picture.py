@@ -13,7 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from report import browse
+from report import browse, is_whole
 from running import run
 
 # Gmsh writes the STEP file: a plate of 200 mm x 100 mm with a hole of radius 20 mm.
@@ -152,6 +152,7 @@ def main(programs, chromium=None):
         assert "://" not in page.read_text().replace("http://www.w3.org/2000/svg", ""), "nothing is loaded"
         if chromium:
             use(chromium, page, hole)
+            is_whole(chromium, page)
 
 
 if __name__ == "__main__":

@@ -129,6 +129,12 @@ document.body.dataset.bodies = Number(bodies.length === 2 && pixels().every((pic
 document.body.dataset.scene = Number(document.querySelector("#origin pre").textContent.includes("friction = 0.7"));
 """
 
+# The sections with a table whose last column the reader does not see.
+CUT = """
+document.body.dataset.cut = [...document.querySelectorAll(".scroll")].filter(box => box.scrollWidth > box.clientWidth)
+                            .map(box => box.closest("section").id).join(" ");
+"""
+
 
 def require(condition, what):
     if not condition:
@@ -241,14 +247,21 @@ def draw(chromium, page, needed):
     require(not empty, f"{page.name}: no number failed {empty}")
 
 
-def used(chromium, page, reader):
+def used(chromium, page, reader, *more):
     """What the body of a copy of the page tells, with a reader in it."""
     copy = page.with_name("used.html")
     copy.write_text(page.read_text().replace("</body>", SCRIPT % reader))
-    shown = browse(chromium, copy, "--dump-dom").stdout
+    shown = browse(chromium, copy, "--dump-dom", *more).stdout
     state = dict(re.findall(r'data-([a-z]+)="([^"]*)"', re.search(r"<body[^>]*>", shown)[0]))
     require("error" not in state, f"nothing fails in use: {state}")
     return state
+
+
+def is_whole(chromium, page):
+    """Around the widths at which the list beside the picture gets its place, and those of common screens."""
+    for width in (980, 1020, 1300, 1400):
+        cut = used(chromium, page, CUT, f"--window-size={width},3000")["cut"]
+        require(not cut, f"{page.name}: no table is cut in a window of {width} pixels {cut}")
 
 
 def look_closer(chromium, page):
@@ -299,6 +312,7 @@ def main(programs, chromium=None, screenshot=None):
         draw(chromium, rigid, ["campbell", "summary"])
         draw(chromium, both, ["comparison", "modes", "campbell", "limit-cycle", "origin"])
         draw(chromium, run_up, ["gradients", "orders"])
+        is_whole(chromium, page)
         use(chromium, page)
         touch(chromium, page)
         bars = used(chromium, run_up, BARS)

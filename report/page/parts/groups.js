@@ -207,6 +207,7 @@ function groupTable(groups) {
   [...made.tBodies[0].rows].forEach((row, g) => {
     row.dataset.group = g;
     row.tabIndex = 0;
+    row.cells[0].classList.add("coloured");
     row.cells[0].prepend(element("span", {class: "swatch", style: `background: ${styled(groups[g].colour)}`}));
   });
   return made;
