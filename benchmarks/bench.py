@@ -111,7 +111,7 @@ BENCHMARKS = [
     ("body", "Bodies", script("body/run.py"), "body_benchmarks"),
     ("squeal", "Squeal", squeal, "squeal_benchmarks"),
     ("condensed", "Small bodies for one brake", script("squeal/condensed_bodies.py"), "condensed_bodies"),
-    ("told-errors", "Errors told of growth rates and critical speeds", script("squeal/told_errors.py"), "told_errors"),
+    ("told-errors", "Printed errors of growth rates and critical speeds", script("squeal/told_errors.py"), "told_errors"),
     ("response-modes", "Response modes", script("squeal/response_modes.py"), "response_modes"),
     ("sound", "Sound", sound, "sound_benchmarks"),
     ("source", "The figures of the source", script("source/gallery.py"), "gallery"),

@@ -3,7 +3,7 @@
 ABOUT = """## Speed against error of the methods
 
 {name} up to {up_to_Hz:g} Hz, its hub held: the largest error of the {modes_in_range} frequencies of the range by rank, against the FE model of the same mesh and
-against the exact Mindlin plate, whose difference is the mesh's. No method is better against the exact plate than its mesh; below that, more modes buy nothing.
+against the exact Mindlin plate. The difference of the two is the error of the mesh. Against the exact plate no method is better than its mesh, so more modes do not help below that error.
 Cost: CPU seconds of all phases from the mesh to the reduced system, of one run; with `accuracy` those of the search for the mesh, too. Coordinates are those of the reduced
 system, of which {masters} are the masters. Dotted in the figure: other meshes.
 

@@ -11,12 +11,12 @@ The scenes are those of `examples/`, the discs on coarser meshes ({dofs} DOFs), 
 A tolerance makes two promises, and each is judged by itself, for loads at all nodes of `track` (discs) or at `B` (beam):
 
 - **Frequencies** (`reduce.tolerance`): all modes of the range of the reduced system under its support, each against the mode of the
-  same rank of the full model (`chladni modes`). A mode that is missing shifts all behind it, so it is seen. `within` tells how many
-  of how many keep the tolerance.
+  same rank of the full model (`chladni modes`). A mode that is missing shifts all behind it, so it is noticed. `within` is the number of modes that
+  keep the tolerance, of how many.
 - **Responses** (`keep.tolerance`): the body's responses at the loaded DOFs over the whole range, resonances included, with 1 % of the
   critical damping, against those of the complete reduced system, on another grid of frequencies than the program's; and against
-  those of the FE model at the middles of the widest gaps between frequencies, without damping. The FE model's are those of a reduced
-  system with its own responses to all loads and to the forces of the support at that frequency (`space = "full"`), which are exact
+  those of the FE model at the middles of the widest gaps between frequencies, without damping. The responses of the FE model are those of a reduced
+  system that contains its responses to all loads and to the forces of the support at that frequency (`space = "full"`), which are exact
   there. Both are to be below the tolerance.
 
 `kept in the body`: modes of the range that are modes of the body. A body may leave out those that the loads do not excite, such as
@@ -32,11 +32,11 @@ program; the least of {rounds} runs in turn, to which other work of the machine 
 
 FE = """## The body beside the FE model
 
-`above` is above the tolerance. `by hand` is that of the frequencies alone: the body has the modes of the range, and what it lacks beyond them
-is seen here."""
+`above` is above the tolerance. `by hand` is that of the frequencies alone: the body has the modes of the range, and this table shows the error by what it lacks
+beyond them."""
 
-OVER = """`by hand` keeps both promises, as the automatic choice does; `frequencies alone` keeps the first. Only the automatic choice tells its errors: it
-bounds those of the responses, which is in its cost."""
+OVER = """`by hand` keeps both promises, as the automatic choice does; `frequencies alone` keeps the first. Only the automatic choice prints its errors: it
+bounds those of the responses, and this is part of its cost."""
 
 
 def verdict(holds):

@@ -139,11 +139,11 @@ def table(result):
              "processes, one thread. The reduction has 366 masters beside the modes and estimates its errors. Written by "
              "`benchmarks/reduction/calculix.py`.", "",
              f"{result['machine']['processor']}, commit {result['machine']['commit']}, {result['ccx']}.", "",
-             "Errors are those of the frequencies by their place in the order, relative. Exact for one theory each: the "
+             "Errors are those of the frequencies by their place in the order, relative, against the exact solutions of three theories: the "
              "Reissner-Mindlin plate with plane stress and the shear correction 5/6, which Chladni's elements approximate; "
              "the same plate without the correction; and the elastic solid. ccx makes one layer of solid elements of S8R, "
-             "quadratic over the thickness: in bending their shear is even over it, as without the correction. The plate differs from the solid by " +
-             "; ".join(f"{both(r['plate_from_solid'])} over {r['modes']} modes" for r in result["runs"]) + " (median, largest): nearer to the solid than that no plate comes.", "",
+             "quadratic over the thickness: in bending their shear is constant over it, as without the correction. The plate differs from the solid by " +
+             "; ".join(f"{both(r['plate_from_solid'])} over {r['modes']} modes" for r in result["runs"]) + " (median, largest): no plate is nearer to the solid than that.", "",
              "Frequencies of the reduction are compared up to lambda half of that of its last fixed-interface mode.", "",
              "| modes | elements | up to, Hz | program | wall, s | CPU, s | CPU over that of chladni modes | peak, MiB | "
              "frequencies compared | error against the plate (median, largest) | against the plate without shear "

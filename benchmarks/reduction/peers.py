@@ -146,8 +146,8 @@ def measure(folder, size, modes):
 def table(result):
     lines = ["# Reduction beside scipy", "",
              "Wall and CPU seconds and peak memory of the whole process, one thread; Chladni's include mesh, assembly and "
-             "error estimates, scipy reads the matrices from files and estimates nothing. Of Chladni's runs, before, between and "
-             "after those of scipy, the middle one of three by CPU time. Written by `benchmarks/reduction/peers.py`.", "",
+             "error estimates, scipy reads the matrices from files and estimates nothing. Chladni runs before, between and "
+             "after the runs of scipy; the table has the middle one of the three by CPU time. Written by `benchmarks/reduction/peers.py`.", "",
              f"{result['machine']['processor']}, commit {result['machine']['commit']}.", "",
              "scipy with one factor: that of the constraint modes serves eigsh too; eigsh alone: the call "
              "of its documentation, which factors in another order. Chladni, exact: with "

@@ -123,8 +123,8 @@ def table(entries, machine, here):
              f"{machine['bandwidth_GB_per_s']} GB/s (`benchmarks/reduction/machine.json`). Solutions slow down by the shared bandwidth; a "
              "collective call waits for one message per doubling of the ranks, a sum of all ranks for two, an exchange for one to each rank that gets "
              "something; bytes are those that a rank sends or receives, whichever is more. The mesh was kept before "
-             "(`--mesh-cache`). Left out: waiting within a phase, and starting the program. Counted too high: work of ranks that share a "
-             "core, whose caches the others empty.", "",
+             "(`--mesh-cache`). Waiting within a phase and the start of the program are left out. The work of ranks that share a "
+             "core is counted too high, because the others empty its caches.", "",
              "| disc | ranks | factor: whole over the fullest rank, entries | operations | messages | MB | peak MiB of a rank | "
              "mean work, s | predicted, s | speed-up | efficiency | largest losses, s of one rank | change of the frequencies |", "|---" * 13 + "|"]
     for e in entries:
@@ -134,12 +134,12 @@ def table(entries, machine, here):
                      f"{100 * e['efficiency']:.0f} % | {losses} | {e['change_of_frequencies']:.0e} |")
     further = carried_on(entries, CARRIED_ON_TO)
     if further:
-        lines += ["", f"Carried on to {CARRIED_ON_TO / 1e6:.0f} million DOFs, the time on one rank and what more ranks take beyond their share of "
-                  "it growing on by the power of the DOFs with which they grow over the discs:", "", "| ranks | discs | efficiency |",
+        lines += ["", f"Extrapolated to {CARRIED_ON_TO / 1e6:.0f} million DOFs. The time on one rank, and the time that more ranks take beyond their share of "
+                  "it, are extrapolated by the power of the DOFs with which they grow over the discs:", "", "| ranks | discs | efficiency |",
                   "|---|---|---|"]
         lines += [f"| {ranks} | {', '.join(discs)} | {100 * share:.0f} % |" for ranks, (share, discs) in further.items()]
     two = [e for e in entries if e["ranks"] == 2]
-    lines += ["", "The model beside this machine, where two ranks have a core each:", "", "| disc | predicted, s | measured, s |", "|---|---|---|"]
+    lines += ["", "The model compared with this machine, on which two ranks have a core each:", "", "| disc | predicted, s | measured, s |", "|---|---|---|"]
     lines += [f"| {e['disc']} | {e['predicted_s']:.2f} | {e['wall_s']:.2f} |" for e in two]
     return "\n".join(lines) + "\n"
 

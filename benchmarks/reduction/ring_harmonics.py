@@ -144,11 +144,10 @@ def table(result):
         lines.append(f"| {case['harmonics']} | {case['masters']} | {max(0.0, low):.1e} | {max(0.0, error.max()):.1e} | "
                      f"{max(0.0, -error.min()):.1e} | {0.5 * max(case['eta2']):.1e} | {abs(case['speed_error']):.1e} | {case['growth_error']:.1e} | "
                      f"{held.max():.1e} | {case['restricted_missing']} |")
-    lines += ["", "Harmonics that are no masters are slaves like any other DOF: the modes then bend the ring in them, "
-              "and none is lost. Frequencies fall where a mode of many diameters is found as it is, with its ring free, and is then "
-              "more right than with all DOFs as masters; they rise where the same number of modes has more to do with fewer "
-              "masters, and where a mode that falls has changed its place with another, since errors are by place in the order. A restricted ring, which does not move but by its "
-              "harmonics, holds the modes of more diameters: the largest errors, and modes that are missing below the end.", "",
+    lines += ["", "Harmonics that are no masters are slaves like any other DOF: the modes then bend the ring in them, and no mode is lost. Frequencies fall if "
+              "a mode of many diameters is found with its ring free, and are then more accurate than with all DOFs as masters. They rise if the same number"
+              " of modes has to represent more with fewer masters, and if a mode that falls has changed places with another one, because errors are by plac"
+              "e in the order. A restricted ring moves by its harmonics alone and holds the modes of more diameters: it has the largest errors, and modes are missing below the end.", "",
               "![Errors over the frequency](ring_harmonics.png)", "", "## What it saves", "",
               "CPU seconds of one run, one thread; entries of the factor of K_ss in millions.", "",
               "| harmonics | " + " | ".join(PHASES) + " | reduce | body | entries | file, MiB |",
@@ -165,8 +164,8 @@ def table(result):
         phases = " | ".join(f"{case['cpu_s'][phase]:.2f}" for phase in PHASES)
         lines.append(f"| {case['dofs']} | {case['harmonics'] or 'all DOFs'} | {phases} | {case['reduce_cpu_s']:.1f} | "
                      f"{case['factor_entries'] / 1e6:.1f} | {case['peak_MiB']:.0f} |")
-    lines += ["", "The price: harmonics couple all nodes of the ring, which fills the factor. The smaller the mesh, the more "
-              "that is beside what the fewer right-hand sides save; what it saves in any case is the body, again and again."]
+    lines += ["", "Harmonics couple all nodes of the ring, which fills the factor. On a small mesh this costs more than the fewer right-han"
+              "d sides save. The body is always cheaper, each time that it is made."]
     return "\n".join(lines) + "\n"
 
 

@@ -37,10 +37,10 @@ up to 1e-4 1/s. The reference disc has 20 mm thickness and one pad pair (mu = 0.
 MODES = """
 ## Critical speed over the number of modes
 
-Of the body of the thesis disc the lowest modes alone, one pair or single mode more in each row (`modes.py`): the first speed
-at which anything is unstable, that at which the pair with three nodal diameters is, and its growth at 6 pi rad/s. Undamped. Time:
-CPU seconds of `squeal run`, {count} speeds and the critical one. References in brackets were computed without
-this code, from the closed form of the Kirchhoff plate: the thin disc, with the same D and mass per area, is that. The iron
+Each row takes the lowest modes of the body of the thesis disc, one pair or single mode more than the row before (`modes.py`). It has the first speed
+at which any motion is unstable, the speed at which the pair with three nodal diameters is, and the growth of this pair at 6 pi rad/s. There is no damping. Time is that of
+`squeal run` in CPU seconds, for {count} speeds and the critical one. References in brackets were computed without
+this code, from the closed form of the Kirchhoff plate, of which the thin disc has D and mass per area. The iron
 disc of 20 mm has shear flexibility, rotary inertia and lower frequencies; its reference is the pair of the exact Mindlin plate.
 Largest difference from a reference: {difference:.1e}.
 

@@ -7,14 +7,14 @@ import matplotlib.pyplot as plt
 COLOURS = {"none": "#777777", "axial": "#2166ac", "axial and slopes": "#b2182b"}
 HEAD = """# What frequency response modes buy
 
-Error of the body without response modes over that of the body with the same modes and axial and slope response modes at the
+The table has the ratio of the error of the body without response modes to that of the body with the same modes and axial and slope response modes at the
 ring. In `squeal` response modes beyond the range have no inertia: bodies of one range have
 {inertia} coordinates with inertia there, without and with response modes.
 
 | quantity | {ranges} |
 | --- |{dashes}
 {gains}
-By coordinates of the body, which response modes do add to: {by_body}
+Response modes add coordinates to the body. Compared by coordinates: {by_body}
 
 Written by `benchmarks/squeal/response_modes.py`{quick}; no number here was typed. The disc of `examples/thesis_disc`, all modes up to a
 frequency, against the FE model itself with {dofs:,} DOFs (`unreduced_disc.py`). Compared are the critical speed of the
@@ -23,7 +23,7 @@ lowest mode, {critical:.6f} rad/s at {critical_Hz:.2f} Hz, and growth and freque
 
 ![Error over coordinates](figures/response_modes.png)
 
-The yardstick: receptances of the FE model differ from a factorization at s by {receptance:.1e}; derivatives of the pad forces from
+Accuracy of the reference: receptances of the FE model differ from a factorization at s by {receptance:.1e}; derivatives of the pad forces from
 their closed form by {pads:.1e}. All coordinates of the reduced system ({fixed} fixed-interface modes) are off by {reduction}.
 
 ## Bodies
@@ -37,8 +37,8 @@ that of a mode above 4 kHz.
 STATIC = """
 ## Where the rest of the error is from
 
-The same modes with the exact static compliance of the FE model for all others, solved without `squeal`: what is left is the inertia of the
-modes left out. Where bodies with response modes are worse than this, it is not for want of response modes.
+These are the same modes with the exact static compliance of the FE model for all others, solved without `squeal`. The remaining error is the inertia of the
+modes left out. More response modes cannot make a body better than this.
 
 | modes to | critical speed | largest growth error | largest frequency error |
 | --- | --- | --- | --- |

@@ -205,12 +205,12 @@ def spread(rows):
 
 def page(result):
     rows = result["rows"]
-    lines = ["# Errors told of growth rates and critical speeds", "",
+    lines = ["# Printed errors of growth rates and critical speeds", "",
              f"{len({row['disc'] for row in rows})} discs on {len(MESHES)} meshes each, under "
-             f"{len({row['brake'] for row in rows})} brakes with one and two pads, friction of 0.3 to 0.6 and pads of 4 to 60 kN/mm. The error that",
-             "`squeal run` tells on a mesh ([its parts](../explanation/squeal.md#the-error-of-a-critical-speed)) over the larger one of the differences to meshes of half and of a quarter of",
-             "the element size, of every mode that grows and of every critical speed. Written by `benchmarks/squeal/told_errors.py`.", "",
-             "| told over found | numbers | least | median | nine of ten below | largest | between 1 and 10 |", "| --- | --- | --- | --- | --- | --- | --- |"]
+             f"{len({row['brake'] for row in rows})} brakes with one and two pads, friction of 0.3 to 0.6 and pads of 4 to 60 kN/mm. The table",
+             "has the ratio of the error that `squeal run` prints on a mesh ([its parts](../explanation/squeal.md#the-error-of-a-critical-speed)) to the larger one of the differences to meshes of half and of a quarter of",
+             "the element size, for every mode that grows and every critical speed. Written by `benchmarks/squeal/told_errors.py`.", "",
+             "| printed over found | numbers | least | median | nine of ten below | largest | between 1 and 10 |", "| --- | --- | --- | --- | --- | --- | --- |"]
     for name in ("growth, 1/s", "critical speed, rad/s"):
         some = [row for row in rows if row["of"] == name]
         if some:

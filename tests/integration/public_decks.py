@@ -32,11 +32,11 @@ CASES = {
 INTRODUCTION = """# Decks with published results
 
 Written by `tests/integration/public_decks.py PROGRAM_DIR --update`; `integration.public_decks` computes it again. The decks of
-[examples/decks](../../examples/decks) are written anew after tests of NAFEMS (R0015, F. Abbassian, D. J. Dawswell and N. C. Knowles, Selected
+[examples/decks](../../examples/decks) are rewritten after tests of NAFEMS (R0015, F. Abbassian, D. J. Dawswell and N. C. Knowles, Selected
 Benchmarks for Natural Frequency Analysis, 1987): CQUAD8 of Nastran, S8R of Abaqus. They are read by `chladni import DECK --length-unit m`, and `chladni modes` computes the
 frequencies. The published ones are those that Altair reprints (OptiStruct verification problems OS-V 0420, 0430, 0435, 0440). Those of thin plates are old upper
-bounds; the converged values of the shear-flexible plate (`tests/plate/vibration_test.cpp`) tell the error of the mesh. The fourth frequency of FV22 is left out:
-its reprint, 283.68 Hz, is 1 % above the converged value, and the original has not been at hand.
+bounds; the converged values of the shear-flexible plate (`tests/plate/vibration_test.cpp`) show the error of the mesh. The fourth frequency of FV22 is left out:
+its reprint, 283.68 Hz, is 1 % above the converged value, and the original was not available.
 """
 
 
