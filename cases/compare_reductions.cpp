@@ -181,9 +181,9 @@ ReductionComparison compare_reductions(const scene::Scene& asked, const Reductio
 
 report::TextTable comparison_table(const ReductionComparison& found)
 {
-  report::TextTable table{
-      .header = {"method", "asked", "coordinates", "largest error", "told", "CPU, s", "best in"},
-      .rows = {}};
+  report::TextTable table{.header = {"method", "asked", "coordinates", "largest error", "estimated",
+                                     "CPU, s", "best in"},
+                          .rows = {}};
   for (const ComparedReduction& row : found.reductions) {
     if (!row.refusal.empty()) {
       table.rows.push_back({row.method, row.asked, "-", "-", "-", "-", "-"});
@@ -212,7 +212,7 @@ std::vector<report::Json::Member> comparison_json(const ReductionComparison& fou
                                          {"n_coordinates", row.n_coordinates},
                                          {"n_compared", row.n_compared},
                                          {"error", row.error},
-                                         {"told", row.told},
+                                         {"estimated_error", row.told},
                                          {"cpu_s", row.cpu_s},
                                          {"wall_s", row.wall_s},
                                          {"refusal", row.refusal},

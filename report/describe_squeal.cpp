@@ -337,8 +337,8 @@ void add_limit_cycle(TextTable& table, const squeal::LimitCycle& cycle)
   if (!cycle.settled) add(table, name + "drift", 100.0 * cycle.drift, "%");
   if (cycle.amplitude.size() > 0 || cycle.mode_numbers.empty()) return;
   table.rows.push_back({"end of the transient",
-                        "the disc is not axisymmetric: it ends in no closed orbit, and "
-                        "\"motion-statistics\" tells how it squeals",
+                        "the disc is not axisymmetric: its motion ends in no closed orbit; "
+                        "\"motion-statistics\" shows how it squeals",
                         ""});
 }
 

@@ -119,7 +119,7 @@ mesh::MeshOptions read_file(const Table& mesh, Size size, const std::string& sce
   check_only_for(mesh, "parameters", is_geo, "only a .geo file has parameters");
   check_only_for(mesh, "doubled_elements", mesh::is_deck(source),
                  "is for decks; elsewhere they are one element in several groups");
-  check_only_for(mesh, "length_unit", !is_step, "a .step file tells its own unit");
+  check_only_for(mesh, "length_unit", !is_step, "a .step file contains its unit");
   if (mesh.has("element_order")) options.element_order = read_element_order(mesh);
   if (is_step) options.element_size = read_size_of_step(mesh, size);
   if (mesh.has("parameters")) options.parameters = read_parameters(mesh);

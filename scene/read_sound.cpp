@@ -16,7 +16,7 @@ using sound::MidLine;
 [[noreturn]] void refuse_without_outline(const Table& root, const std::string& why)
 {
   root.refuse("sound", why +
-                           "; tell the middle surface in the key outline = [{ from = [r, z], to "
+                           "; give the middle surface in the key outline = [{ from = [r, z], to "
                            "= [r, z], thickness = t }, ...]");
 }
 
@@ -46,8 +46,7 @@ std::vector<MidLine> generated_lines(const Table& root, const Scene& scene)
     };
   }
   refuse_without_outline(root,
-                         "only the generators annulus and hat_disc tell what their body is "
-                         "like");
+                         "only the generators annulus and hat_disc know the shape of their body");
 }
 
 Vector2d read_point(const Table& table, std::string_view key)

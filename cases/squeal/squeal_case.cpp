@@ -126,8 +126,8 @@ void add_note_of_condensation(std::span<const mbs_export::ModalBody> bodies,
     if (body.condensation) lowest = std::min(lowest, body.condensation->highest);
   if (lowest == std::numeric_limits<double>::infinity()) return;
   notes.push_back(
-      fmt::format("condensed bodies have the vibrations of their brake up to {:.6g} Hz; what is "
-                  "told of higher ones is not the brake's",
+      fmt::format("condensed bodies have the vibrations of their brake up to {:.6g} Hz; results "
+                  "above it are not those of the brake",
                   lowest / (2.0 * std::numbers::pi)));
 }
 
@@ -168,8 +168,8 @@ std::optional<std::string> note_of_points(const squeal::FlexibleDisc& brake)
   if (numbers.empty()) return std::nullopt;
   return fmt::format(
       "squeal.pads: number {} gives no size and touches the disc at a point, whose displacement no "
-      "mesh has right: growth rates and critical speeds go on changing with finer elements, as "
-      "their errors tell; give `radius` or `area`, or face = \"point\" if a point is meant",
+      "mesh gets right: growth rates and critical speeds change further with finer elements, and "
+      "their errors contain this; give `radius` or `area`, or face = \"point\" if a point is meant",
       fmt::join(numbers, ", "));
 }
 
@@ -178,8 +178,8 @@ std::optional<std::string> note_of_asymmetry(const squeal::FlexibleDisc& brake)
 {
   if (brake.is_autonomous() || brake.options().keeps_asymmetry) return std::nullopt;
   return fmt::format(
-      "the disc is not axisymmetric: {}; its stability is told by Hill's method over a rotation, "
-      "without errors of the body, and takes long with many modes",
+      "the disc is not axisymmetric: {}; its stability is computed by Hill's method over a "
+      "rotation, without errors of the body; this takes long with many modes",
       squeal::asymmetry(brake.disc()).value_or("as it is"));
 }
 

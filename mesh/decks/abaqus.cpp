@@ -109,7 +109,7 @@ class AbaqusReader {
   {
     const std::size_t n_of_model = abaqus_model(keywords_).size();
     if (n_of_model == keywords_.size()) return;
-    deck_.notes.emplace_back("steps are left out, but for the supports of the first one");
+    deck_.notes.emplace_back("steps are left out, except the supports of the first one");
     for (const Keyword& keyword : keywords_.subspan(n_of_model))
       if (keyword.name == "BOUNDARY") {
         deck_.notes.push_back(

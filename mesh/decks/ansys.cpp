@@ -520,7 +520,7 @@ class AnsysReader {
   void check_material(std::int64_t number, const DeckElement& element) const
   {
     if (places_of_materials_.contains(number)) return;
-    throw Error(fmt::format("{} is of the material {}, of which no MP or MPDATA tells EX",
+    throw Error(fmt::format("{} is of the material {}, whose EX neither MP nor MPDATA gives",
                             name_of(element), number));
   }
   void declare_materials(const DeckUnits& units, Declarations& all) const;

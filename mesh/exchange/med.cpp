@@ -160,7 +160,7 @@ std::vector<double> MedFile::reals(const std::string& name) const
 {
   std::vector<double> read = values<double>(file_.get(), name, H5T_FLOAT, H5T_NATIVE_DOUBLE);
   for (const double x : read)
-    if (!std::isfinite(x)) refuse(name, "holds what is no finite number");
+    if (!std::isfinite(x)) refuse(name, "holds a value that is no finite number");
   return read;
 }
 

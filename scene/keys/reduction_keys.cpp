@@ -61,8 +61,8 @@ constexpr Key reduction_rows[] = {
      positive("Hz")},
     {"body.keep.list", integers, "one of these", "by number from 1, ascending", at_least(1)},
     {"body.keep.tolerance", number, "one of these",
-     "relative error of the frequency responses, against the FE model where the reduction tells "
-     "its own",
+     "relative error of the frequency responses, against the FE model if the reduction knows its "
+     "own",
      tolerance},
     {"body.interface_modes", tables, "none", "static or frequency-response modes"},
     {"body.interface_modes.kind", word, "required", "inertia relief or frequency response",

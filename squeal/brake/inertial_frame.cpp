@@ -312,7 +312,7 @@ InertialDisc inertial_disc(const Disc& disc)
         fmt::format("the disc is not axisymmetric: {}. Eigenvalues, critical values and limit "
                     "cycles need an axisymmetric disc and both modes of each pair; the analyses "
                     "\"stability\", \"critical-speed\", \"rotation-stability\", \"growth\" and "
-                    "\"transient\" do not, and \"motion-statistics\" tells how such a disc squeals",
+                    "\"transient\" do not, and \"motion-statistics\" shows how such a disc squeals",
                     complaint->text));
   }
   return std::get<InertialDisc>(std::move(outcome));

@@ -308,7 +308,7 @@ Index first_steps(const Shifted& F, Index g, double step)
     return power_of_two(static_cast<Index>(least) + 1);
   throw Error(
       fmt::format("stability over a rotation: at {:.6g} rad/s (speed times the symmetry of the "
-                  "disc) {} states act on each other so that none can be told alone, and their "
+                  "disc) {} states act on each other so that none can be computed alone, and their "
                   "equations need {:.1e} steps a period; the disc is not axisymmetric: mesh it so, "
                   "or keep fewer modes in [body]",
                   step, g, least));

@@ -233,7 +233,7 @@ TEST(SceneMeshError, NamesWhatAFileDoesNotTake)
   EXPECT_EQ(mesh_error("file = \"a.geo\"\nelement_size = 0.1\n"),
             "scene.toml:3: mesh.element_size = 0.1: is for .step files; a .geo has its own sizes");
   EXPECT_EQ(mesh_error("file = \"a.step\"\nelement_size = 0.1\nlength_unit = \"mm\"\n"),
-            "scene.toml:4: mesh.length_unit = \"mm\": a .step file tells its own unit");
+            "scene.toml:4: mesh.length_unit = \"mm\": a .step file contains its unit");
   EXPECT_NE(mesh_error("file = \"a.step\"\n").find("element_size"), std::string::npos);
   EXPECT_EQ(mesh_error("file = \"a.geo\"\nparameters = { \"a-b\" = 1.0 }\n").substr(0, 13),
             "scene.toml:3:");
