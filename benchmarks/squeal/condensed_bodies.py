@@ -126,7 +126,7 @@ def page(result):
              "`squeal condense` makes small bodies of the large ones of an assembly ([how](../how-to/several_bodies.md#small-bodies-for-one-brake)). The brake of",
              f"`examples/brake`, its bodies with {result['before']} coordinates together, complex eigenvalues up to {UP_TO_HZ:g} Hz at both ends of the speeds.",
              "Errors are relative distances to the eigenvalues of the large bodies. Written by `benchmarks/squeal/condensed_bodies.py`.", "",
-             "| tolerance | " + " | ".join(names) + " | all | error told | largest error | median | time of `squeal run`, large over small |",
+             "| tolerance | " + " | ".join(names) + " | all | printed error | largest error | median | time of `squeal run`, large over small |",
              "| --- |" + " --- |" * (len(names) + 5)]
     for row in result["sizes"]:
         sizes = [row["parts"][name] for name in names]
