@@ -1,7 +1,6 @@
 #include "squeal/stability/hill.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +8,6 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <thread>
 #include <vector>
 
 #include "common/eigen_every.hpp"
@@ -31,27 +29,6 @@ constexpr Eigen::Index n_samples_max = 1024;
 constexpr double left_out = 0.1;
 /// Of a period, for the disc that stands; no harmonic below it repeats at these angles.
 constexpr int n_frozen_angles = 24;
-
-/// The coupling matrix and its harmonics hold so many bytes for each entry at each angle, at most.
-constexpr double bytes_an_entry = 24.0;
-
-/// Refuses, before it is taken, what would fill the memory of the machine.
-/// @param m  states
-/// @param N  angles
-void require_room(double speed, Index m, Index N)
-{
-  const double gibibyte = double(1 << 30);
-  const double n_threads = std::max(1U, std::thread::hardware_concurrency());
-  const double bytes_a_state = bytes_an_entry * double(m) + bytes_iterated * columns_iterated;
-  const double needed = bytes_a_state * double(m) * double(N) * n_threads / gibibyte;
-  const double machine = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE)) / gibibyte;
-  if (needed <= machine) return;
-  throw Error(fmt::format(
-      "stability over a rotation at {:.6g} rad/s: {} modes at {} angles of the disc "
-      "need {:.3g} gibibyte, and the machine has {:.3g} GiB; the disc is not axisymmetric: "
-      "mesh it so, or keep fewer modes in [body]",
-      speed, m / 2, N, needed, machine));
-}
 
 /// Of the groups, and of all of them what the sum of their growth rates is off the trace.
 HillExponents exponents_of(const std::vector<NearGroup>& groups, const TurningModes& modes)
@@ -101,8 +78,9 @@ HillExponents Hill::exponents(double speed, std::optional<Index> n_least_stable)
   const int nu = std::max(1, harmonics.nu);
   const Eigen::Index highest = harmonics.highest / nu;
   // The harmonics of the corrections, three eighths of the samples, hold those of the equations.
-  for (Index N = power_of_two(8 * highest / 3 + 1); N <= n_samples_max; N *= 2) {
-    require_room(speed, harmonics.A_0.rows(), N);
+  const Index first = std::min(n_samples_max, power_of_two(8 * highest / 3 + 1));
+  for (Index N = first; 2 * highest < N && N <= n_samples_max; N *= 2) {
+    require_room(nu * speed, harmonics.A_0.rows(), N);
     const TurningModes modes = turning_modes(harmonics, N);
     const std::vector<NearGroup> groups = near_groups(modes, tolerance_, n_least_stable);
     double error = 0.0;

@@ -1,5 +1,8 @@
 #include "squeal/stability/near_groups.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -7,11 +10,13 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "common/eigen_every.hpp"
+#include "common/error.hpp"
 #include "squeal/stability/hill.hpp"
 
 namespace chladni::squeal {
@@ -33,6 +38,10 @@ using Reduced = std::variant<NearGroup, Link>;
 
 using Complex = std::complex<double>;
 
+/// Bytes of the coupling matrix and its harmonics, for each entry and angle; of the iteration, for
+/// each state, angle and column; and of the steps that it combines.
+constexpr double bytes_an_entry = 20.0, bytes_a_column = 112.0, bytes_combined = 256.0;
+
 /// The iteration ends when F changes by less, 1/s.
 constexpr double F_error = 1e-7;
 
@@ -47,7 +56,7 @@ constexpr double slowest = 0.2;
 constexpr std::size_t steps_looked_back = 8, steps_until_known = 32;
 /// Steps of which a slow iteration combines what they changed, and what is slow: of the change
 /// before.
-constexpr std::size_t steps_combined = 8;
+constexpr Index steps_combined = 8;
 constexpr double slow = 0.1;
 /// Residuals of combined steps may rise now and then.
 constexpr double rise_limit = 1e2;
@@ -57,13 +66,18 @@ constexpr double rise_limit = 1e2;
 /// diverge in a few directions, although the equations of the group have a solution.
 class Acceleration {
  public:
+  /// @param g  columns of c; of many, fewer steps are combined, which bounds the memory
+  explicit Acceleration(Index g)
+      : n_combined_(std::clamp<Index>(steps_combined * columns_iterated / g, 1, steps_combined))
+  {}
+
   /// @param image     G(c)
   /// @param residual  G(c) - c
   /// @return the next c
   AngleHarmonics next(const AngleHarmonics& image, const AngleHarmonics& residual)
   {
     if (last_image_.size() > 0) {
-      if (images_.size() == steps_combined) {
+      if (std::ssize(images_) == n_combined_) {
         images_.erase(images_.begin());
         residuals_.erase(residuals_.begin());
       }
@@ -103,6 +117,7 @@ class Acceleration {
     return scale.cwiseProduct(Eigen::VectorXcd(solver.solve(r)));
   }
 
+  Index n_combined_;
   AngleHarmonics last_image_, last_residual_;
   std::vector<Eigen::VectorXcd> images_, residuals_;  ///< changes from step to step
 };
@@ -119,7 +134,8 @@ class Reduction {
         kept_(3 * modes.B.cols() / 8),
         X_(AngleSamples::Zero(modes.size() * g_, modes.B.cols())),
         F_(AngleSamples::Zero(g_ * g_, modes.B.cols())),
-        F_before_(F_)
+        F_before_(F_),
+        acceleration_(g_)
   {}
 
   Index size() const { return g_; }
@@ -152,15 +168,18 @@ class Reduction {
     const bool creeps = sizes_.size() > steps_until_known &&
                         size > slowest * sizes_.end()[-1 - std::ptrdiff_t(steps_looked_back)];
     if (!(c.cwiseAbs2().maxCoeff() < share_limit * share_limit) || diverges ||
-        (creeps && !is_settled())) {
+        (creeps && !repeats_F())) {
       outcome_ = worst(change);
       return;
     }
     least_ = std::min(least_, size);
-    const bool settled = is_settled();
+    // After a plain step the change of F is what the residual does to it; a combination of steps
+    // may stand still.
+    const bool repeats = repeats_F(), settled = repeats && !is_combined_;
     F_before_ = F_;
     is_slow_ = is_slow_ || (sizes_.size() > 1 && size > slow * sizes_.end()[-2]);
-    c_ = is_slow_ ? acceleration_.next(c, change) : std::move(c);
+    is_combined_ = is_slow_ && !repeats;
+    c_ = is_combined_ ? acceleration_.next(c, change) : std::move(c);
     if (settled)
       outcome_ = group_or_link();
     else if (++n_steps_ == n_iterations_max)
@@ -175,7 +194,7 @@ class Reduction {
     return {f.col(column).data(), rows, g_};
   }
 
-  bool is_settled() const
+  bool repeats_F() const
   {
     return n_steps_ > 0 && (F_ - F_before_).cwiseAbs2().maxCoeff() < F_error * F_error;
   }
@@ -247,7 +266,7 @@ class Reduction {
   AngleHarmonics c_;
   double least_ = std::numeric_limits<double>::infinity();
   std::vector<double> sizes_;  ///< of the changes of X
-  bool is_slow_ = false;
+  bool is_slow_ = false, is_combined_ = false;
   Acceleration acceleration_;
   int n_steps_ = 0;
   std::optional<Reduced> outcome_;
@@ -314,6 +333,7 @@ std::vector<Reduced> reduced(const TurningModes& modes, double tolerance,
       ++next;
     }
     if (open.empty()) return results;
+    require_room(modes.step, modes.size(), modes.B.cols(), n_columns(open));
     advance(open, modes);
     for (Open& one : open)
       if (auto& outcome = one.reduction.outcome()) results[one.place] = std::move(*outcome);
@@ -410,6 +430,7 @@ SecondOrder unite_near(Sets& sets, const TurningModes& modes)
                            down = coupling(modes, B_k.conjugate(), all);
     const auto couple = [&](const Eigen::MatrixXcd& there, const Eigen::MatrixXcd& back,
                             Complex turned, Index i, Index j) {
+      if (there(i, j) == Complex(0.0)) return;
       const Complex d = turned - modes.lambda[i] + modes.lambda[j];
       if (i == j || std::norm(there(i, j)) <= near * near * std::norm(d)) {
         const Complex shift = back(j, i) * there(i, j) * std::conj(d) / std::norm(d);
@@ -496,6 +517,22 @@ std::vector<char> may_be_wanted(const Sets& sets, const TurningModes& modes,
 }
 
 }  // namespace
+
+void require_room(double step, Index m, Index N, Index columns)
+{
+  const double gibibyte = double(1 << 30);
+  const double n_threads = std::max(1U, std::thread::hardware_concurrency());
+  const double bytes_a_state = bytes_an_entry * double(m) + bytes_a_column * double(columns) +
+                               bytes_combined * double(columns_iterated);
+  const double needed = bytes_a_state * double(m) * double(N) * n_threads / gibibyte;
+  const double machine = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE)) / gibibyte;
+  if (needed <= machine) return;
+  throw Error(fmt::format(
+      "stability over a rotation: at {:.6g} rad/s (speed times the symmetry of the disc) {} modes "
+      "at {} angles of the disc need {:.3g} gibibyte, and the machine has {:.3g} GiB; the disc is "
+      "not axisymmetric: mesh it so, or keep fewer modes in [body]",
+      step, m / 2, N, needed, machine));
+}
 
 std::vector<NearGroup> near_groups(const TurningModes& modes, double tolerance,
                                    std::optional<Index> n_least_stable)

@@ -18,10 +18,17 @@ struct NearGroup {
   double error;          ///< error estimated from the last harmonics, 1/s
 };
 
-/// Columns of X for which `near_groups` iterates at a time, and the bytes that each takes for each
-/// state and angle, at most.
+/// Columns of X for which `near_groups` iterates at a time; a larger group has more.
 inline constexpr Eigen::Index columns_iterated = 32;
-inline constexpr double bytes_iterated = 352.0;
+
+/// Refuses, before it is taken, what would fill the memory of the machine.
+/// @param step     rad/s, nu times the speed
+/// @param m        states
+/// @param N        angles
+/// @param columns  of X
+/// @throws chladni::Error
+void require_room(double step, Eigen::Index m, Eigen::Index N,
+                  Eigen::Index columns = columns_iterated);
 
 /// Splits the states into invariant groups. X solves the harmonic balance of
 ///   step dX/dphi = Lambda_q X - X Lambda_g + B_qg + B_qq X - X (B_gg + B_gq X)

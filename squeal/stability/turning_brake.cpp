@@ -288,6 +288,7 @@ TurningHarmonics turning_harmonics(TurningBrake brake, double speed, int bound, 
   for (const Harmonic& harmonic : large)
     if (harmonic.k % std::max(1, found.nu) == 0)
       found.highest = std::max(found.highest, harmonic.k);
+  found.c = c.leftCols(found.highest + 1);
   return found;
 }
 

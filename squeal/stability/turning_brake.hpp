@@ -90,7 +90,8 @@ struct TurningHarmonics {
   Eigen::VectorXcd lambda;  ///< [m] 1/s, eigenvalues of A_0
   Eigen::MatrixXcd V;       ///< [m x m] eigenvectors of A_0
   Eigen::MatrixXcd left_V;  ///< [m x m / 2] columns of V^-1 that multiply the lower half of A
-  AngleHarmonics c;         ///< [m m / 2 x N] lower half of A, each column a matrix, 1/s
+  /// [m m / 2 x highest + 1] 1/s, orders 0 to `highest` of the lower half of A, each a matrix.
+  Eigen::MatrixXcd c;
   /// All kept harmonics are multiples of nu; 0: there are none.
   int nu;
   int highest;  ///< highest kept harmonic
