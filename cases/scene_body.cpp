@@ -43,6 +43,12 @@ void add_note_of_stiffening(const mbs_export::ModalBody& body,
 std::vector<std::string> notes_of(const scene::Scene& scene, const mbs_export::ModalBody& body,
                                   const mbs_export::Certificate& certificate)
 {
+  if (scene.body.keep.tolerance && !body.selection) {
+    return {
+        fmt::format("body.fixed holds all that could be loaded: the body has all {} modes of the "
+                    "range, and what it promises are their frequencies",
+                    body.n_modes())};
+  }
   const Eigen::VectorXd& certified = certificate.frequencies;
   if (!scene.body.keep.up_to_Hz || certified.size() == 0) return {};
   constexpr double same_mode = 1.0 + 1e-3;

@@ -31,9 +31,10 @@ constexpr Index most_on_edges = 96;
 /// Components that change among themselves when a ring is turned about z.
 constexpr std::array<std::array<int, 2>, 4> bundles{{{0, 1}, {2, 2}, {3, 4}, {5, 5}}};
 
-/// Some components at all nodes of a set.
+/// Some components at nodes of a set.
 struct SetLoad {
   std::string set;
+  std::vector<int> nodes;
   std::vector<int> components;
   std::optional<double> Omega_0;
 };
@@ -46,42 +47,49 @@ struct Pattern {
   std::optional<double> Omega_0;
 };
 
-std::vector<SetLoad> loads_of(const std::vector<InterfaceModes>& wanted)
+std::vector<SetLoad> loads_of(const ReducedSystem& reduced,
+                              const std::vector<InterfaceModes>& wanted)
 {
   std::vector<SetLoad> loads;
   for (const InterfaceModes& one : wanted) {
-    loads.push_back({one.at, one.components,
+    loads.push_back({one.at, find_set(reduced, one.at).nodes, one.components,
                      one.kind == InterfaceModes::Kind::irm ? std::optional(0.0) : one.omega0});
   }
   return loads;
 }
 
-/// Components that all nodes of a set have, and that are neither held nor drilling at any.
-std::vector<int> free_components(const ReducedSystem& reduced, const HeldDofs& held,
-                                 const AttachmentSet& set)
+/// The nodes of a set whose component is not held; none where it is drilling or missing at any.
+std::vector<int> free_nodes(const ReducedSystem& reduced, const HeldDofs& held,
+                            const AttachmentSet& set, int component)
 {
-  const auto is_free = [&](int node, int component) {
-    return has_component(reduced, node, component) && !is_drilling(reduced, node, component) &&
-           std::ranges::find(held.dofs, 6 * node + component) == held.dofs.end();
-  };
-  std::vector<int> components;
-  for (int component = 0; component < 6; ++component) {
-    if (!set.nodes.empty() &&
-        std::ranges::all_of(set.nodes, [&](int node) { return is_free(node, component); }))
-      components.push_back(component);
-  }
-  return components;
+  const bool is_of_all = std::ranges::all_of(set.nodes, [&](int node) {
+    return has_component(reduced, node, component) && !is_drilling(reduced, node, component);
+  });
+  std::vector<int> nodes = is_of_all ? set.nodes : std::vector<int>{};
+  std::erase_if(nodes, [&](int node) {
+    return std::ranges::find(held.dofs, 6 * node + component) != held.dofs.end();
+  });
+  return nodes;
 }
 
+/// Components with the same free nodes together.
 std::vector<SetLoad> default_loads(const ReducedSystem& reduced, const HeldDofs& held,
                                    const std::vector<ContactRing>& rings)
 {
   std::vector<SetLoad> loads;
   for (const AttachmentSet& set : reduced.sets) {
-    std::vector<int> components = free_components(reduced, held, set);
-    if (std::ranges::find(rings, set.name, &ContactRing::name) != rings.end())
-      std::erase_if(components, [](int component) { return component != 2; });
-    if (!components.empty()) loads.push_back({set.name, components, {}});
+    const bool is_ring = std::ranges::find(rings, set.name, &ContactRing::name) != rings.end();
+    const auto first = std::ssize(loads);
+    for (int component = 0; component < 6; ++component) {
+      std::vector<int> nodes = free_nodes(reduced, held, set, component);
+      if (nodes.empty() || (is_ring && component != 2)) continue;
+      const auto same = std::find_if(loads.begin() + first, loads.end(),
+                                     [&](const SetLoad& load) { return load.nodes == nodes; });
+      if (same != loads.end())
+        same->components.push_back(component);
+      else
+        loads.push_back({set.name, std::move(nodes), {component}, {}});
+    }
   }
   return loads;
 }
@@ -172,7 +180,7 @@ class LoadList {
 
   void add(const SetLoad& load, const ContactRing* ring)
   {
-    const std::vector<int>& nodes = find_set(reduced_, load.set).nodes;
+    const std::vector<int>& nodes = load.nodes;
     const bool is_edge = ring == nullptr && nodes.size() > few_nodes;
     const bool is_spread = spreading_ && (is_edge || (ring != nullptr && spreading_->of_rings));
     const Index n_before = n_loads();
@@ -181,7 +189,7 @@ class LoadList {
     else if (ring != nullptr)
       add_ring(load, *ring);
     else
-      add_nodes(load, nodes);
+      add_nodes(load);
     const std::string degree =
         is_spread ? fmt::format(" of degree {}", spreading_->degree) : std::string();
     for (const int c : load.components)
@@ -246,15 +254,15 @@ class LoadList {
     }
   }
 
-  void add_nodes(const SetLoad& load, const std::vector<int>& nodes)
+  void add_nodes(const SetLoad& load)
   {
     for (const int component : load.components) {
-      const std::vector<Index> places = single(nodes, component);
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const std::vector<Index> places = single(load.nodes, component);
+      for (std::size_t i = 0; i < places.size(); ++i) {
         std::string name = fmt::format("{}.{}", load.set, component_name(component));
-        if (nodes.size() > 1) {
-          name +=
-              fmt::format(" (node {})", reduced_.attachment_nodes[std::size_t(nodes[i])].number);
+        if (places.size() > 1) {
+          const auto node = static_cast<std::size_t>(load.nodes[i]);
+          name += fmt::format(" (node {})", reduced_.attachment_nodes[node].number);
         }
         patterns_.push_back({name, {places[i]}, MatrixXd::Ones(1, 1), load.Omega_0});
       }
@@ -263,9 +271,8 @@ class LoadList {
 
   void add_polynomials(const SetLoad& load, const MatrixXd& fields)
   {
-    const std::vector<int>& nodes = find_set(reduced_, load.set).nodes;
     for (const int component : load.components) {
-      const std::vector<Index> places = enlisted(nodes, component);
+      const std::vector<Index> places = enlisted(load.nodes, component);
       for (Index j = 0; j < fields.cols(); ++j) {
         for (Index i = 0; i < fields.rows(); ++i)
           forces_.emplace_back(int(places[std::size_t(i)]), int(n_loads()), fields(i, j));
@@ -324,11 +331,13 @@ LoadedDofs loaded_dofs(const ReducedSystem& reduced, const HeldDofs& held,
   const std::vector<ContactRing> rings =
       contact_rings(reduced, MatrixXd(6 * Index(reduced.attachment_nodes.size()), 0));
   const std::vector<SetLoad> sets =
-      wanted.empty() ? default_loads(reduced, held, rings) : loads_of(wanted);
+      wanted.empty() ? default_loads(reduced, held, rings) : loads_of(reduced, wanted);
   for (const std::optional<Spreading>& way : ways_to_load()) {
     LoadList list(reduced, held, way);
     for (const SetLoad& load : sets) {
-      const auto ring = std::ranges::find(rings, load.set, &ContactRing::name);
+      const auto ring = std::ranges::find_if(rings, [&](const ContactRing& one) {
+        return one.name == load.set && one.nodes.size() == load.nodes.size();
+      });
       list.add(load, ring != rings.end() ? &*ring : nullptr);
     }
     const bool are_named = !wanted.empty();

@@ -172,6 +172,17 @@ TEST(LoadedDofs, OfFewNodesAreEachByItself)
   EXPECT_EQ(loads_of(nodes_on_a_line(16), {}, {}).spread.size(), 0);
 }
 
+TEST(LoadedDofs, OfASetAreWhereItIsNotHeld)
+{
+  ReducedSystem line = nodes_on_a_line(5);
+  line.sets.push_back({.name = "end", .nodes = {4}});
+  const LoadedDofs loads = loads_of(line, {"end.x", "end.z", "edge.rx"}, {});
+  EXPECT_EQ(loads.dofs.size(), 4u + 4 + 5 + 5 + 5);
+  EXPECT_EQ(std::ranges::count(loads.dofs, 6 * 4 + 2), 0);
+  EXPECT_EQ(std::ranges::count(loads.dofs, 6 * 4 + 1), 1);
+  EXPECT_EQ(loads.names.front(), "edge.x");
+}
+
 TEST(LoadedDofs, AreNoneWhereTheSupportHoldsAll)
 {
   EXPECT_TRUE(loads_of(test::wheel(), {"hub", "rim"}, {}).dofs.empty());
