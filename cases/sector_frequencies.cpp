@@ -175,6 +175,24 @@ std::vector<std::string> names_on_axis(const scene::Scene& scene, const mesh::Me
   return names;
 }
 
+/// The DOFs of a body one sector of which has these: nodes on the axis are in all sectors, those of
+/// a cut edge in two.
+int n_dofs_of_all(const mesh::Mesh& sector, const plate::DofMap& dofs)
+{
+  const double length = mesh::outer_radius(sector);
+  std::set<int> next;
+  for (const auto& [low, high] : sector.sectors.pairs) next.insert(high);
+  int n = 0;
+  for (int node = 0; node < dofs.n_nodes(); ++node) {
+    const Eigen::Vector3d x = dofs.position(node);
+    const bool is_on_axis = mesh::is_on_axis({x[0], x[1], x[2]}, length);
+    const int of_sectors = next.contains(node) ? 0 : is_on_axis ? 1 : sector.sectors.count;
+    for (const int c : dofs.components())
+      if (dofs.dof(node, c)) n += of_sectors;
+  }
+  return n;
+}
+
 }  // namespace
 
 SectorFrequencies::SectorFrequencies(const scene::Scene& scene, const mesh::Mesh& mesh, int count)
@@ -194,8 +212,7 @@ SectorFrequencies::SectorFrequencies(const scene::Scene& scene, const mesh::Mesh
   const std::vector<int> held = plate::held_dofs(mesh, dofs, scene.supports);
   const auto free = plate::free_parts(mesh, dofs, held, scene.springs);
   n_rigid_ = plate::n_free_motions(free);
-  const auto n_cut = static_cast<int>(std::ssize(mesh.sectors.pairs) * dofs.components().size());
-  n_dofs_ = is_whole ? dofs.n_dofs() : count * (dofs.n_dofs() - n_cut);
+  n_dofs_ = is_whole ? dofs.n_dofs() : n_dofs_of_all(mesh, dofs);
   const bool is_free = n_rigid_ == all && free.size() == 1;
   if (n_rigid_ > 0 && !is_free)
     throw Error(fmt::format("the support leaves {} rigid-body motions of a sector", n_rigid_));
