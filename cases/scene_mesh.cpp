@@ -263,6 +263,23 @@ std::vector<int> other_orders(const mesh::MeshOptions& mesh)
   return orders;
 }
 
+double refine_solids(mesh::MeshOptions& mesh)
+{
+  constexpr int highest = 3;
+  constexpr double left_by_order = 0.4, left_by_halves = 0.25;
+  const bool rises = order_of(mesh) < highest;
+  const auto refine = [&](auto& options) {
+    if (!options) return;
+    options->element_order += rises ? 1 : 0;
+    options->element_size *= rises ? 1.0 : 0.5;
+  };
+  refine(mesh.annulus);
+  refine(mesh.pad);
+  refine(mesh.rectangle);
+  mesh.extrude->layers *= rises ? 1 : 2;
+  return rises ? left_by_order : left_by_halves;
+}
+
 bool takes_local_sizes(const mesh::MeshOptions& mesh)
 {
   return is_geo(mesh) || is_step(mesh);

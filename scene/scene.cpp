@@ -98,8 +98,17 @@ std::vector<std::string> notes_of(const Table& root, const Scene& scene)
 void refuse_beside_solids(const Table& root, const Scene& scene)
 {
   if (scene.solids.empty()) return;
-  if (scene.accuracy) root.refuse("accuracy", "is for shells and beams; give solids a mesh");
-  if (scene.mesh_errors) {
+  if (scene.accuracy && !scene.mesh.extrude) {
+    root.refuse("accuracy",
+                "of solids chooses the elements of a generator with `extrude`, and this is a file; "
+                "compare its mesh with a finer one");
+  }
+  if (scene.accuracy && root.has("squeal")) {
+    root.refuse("accuracy",
+                "of solids does not tell how far the mesh lets the faces of [squeal] move "
+                "otherwise; give [mesh] element_size, and compare with a finer mesh");
+  }
+  if (scene.mesh_errors && !scene.accuracy) {
     root.table("reduce").refuse("mesh_errors",
                                 "is for shells and beams; compare solids with a finer mesh");
   }

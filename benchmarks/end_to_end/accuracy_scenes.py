@@ -171,7 +171,7 @@ HAT = ["", "[mesh]", 'generator = "hat_disc"', "outer_radius = 0.15", "wall_radi
 PAD = ["", "[mesh]", 'generator = "pad"', "inner_radius = 0.09", "outer_radius = 0.15", "angle_deg = 50"]
 HUB = coupling("hub", "inner_edge")
 SPRINGS = ('\n[[spring]]\nat = "corners"\nstiffness = { x = 1e6, y = 1e6, z = 1e6 }\n'
-           '\n[[mass]]\nat = "corners"\nmass = 0.1\ninertia = [1e-5, 1e-5, 1e-5]\n')
+           '\n[[mass]]\nat = "corners"\nmass = 0.1\n')
 
 
 def disc(name, *more, thickness=0.02, radii=(0.025, 0.162)):
@@ -229,5 +229,5 @@ GEOMETRIES = {
                                 files={"plate.bdf": plate_bdf(6, 4), "fine.geo": PLATE.replace('"plate"', '"pshell_1"').replace('"edge"', '"spc_1_123456"')},
                                 fixed=("spc_1_123456",), up_to_Hz=1500.0, fine=file_mesh("fine.geo", "element_order = 3")),
     "solid plate": Geometry(mesh=rectangle(0.3, 0.2, "extrude = { from = 0.0, to = 0.02, layers = 1 }"), nodes=("left",), fixed=("left",), up_to_Hz=4000.0,
-                            model='\n[[section]]\ngroup = "plate"\ntype = "solid"\nmaterial = "steel"\n'),
+                            fine=rectangle(0.3, 0.2, "extrude = { from = 0.0, to = 0.02, layers = 3 }", "element_order = 3", "element_size = 0.01"), model='\n[[section]]\ngroup = "plate"\ntype = "solid"\nmaterial = "steel"\n'),
 }
