@@ -63,6 +63,15 @@ struct Sectors {
       pairs;  ///< nodes (low, high) of the cut edges of the mesh: one turn takes low to high
 };
 
+/// A node of a ring that no element has. It moves as the face of the solids there does, at a point
+/// or in the mean over a patch: u = sum_j w_j u_j, with sum_j w_j = 1 and its position sum_j w_j
+/// x_j.
+struct FaceNode {
+  int node;
+  std::vector<int> nodes;  ///< those of the faces
+  std::vector<double> weights;
+};
+
 /// A mesh of lines, surfaces and solids in space; the same on every rank.
 struct Mesh {
   std::vector<std::int64_t> node_numbers;        ///< [n] numbers of the mesh file
@@ -71,7 +80,8 @@ struct Mesh {
   std::vector<Group> groups;
   std::vector<std::string> notes;  ///< for the user: what was changed or left out on reading
   Sectors sectors = {};
-  std::string made_by = {};  ///< path of the library that made it; empty: this program
+  std::vector<FaceNode> face_nodes = {};  ///< of rings on faces
+  std::string made_by = {};               ///< path of the library that made it; empty: this program
 
   int n_nodes() const { return static_cast<int>(positions.size()); }
 };
@@ -121,8 +131,11 @@ inline Vector unit(const Vector& a)
 /// the x axis, ordered by angle. Nodes that miss their place by less than a thousandth of the
 /// distance between two neighbours are moved there, with a note. In a sector the group has the
 /// nodes of the sector, including those of both cut edges.
+/// A ring on faces gets nodes of its own, each on the free face of the solids there or in the mean
+/// over a patch of it, 2 pi r / N long and `width` wide.
 /// @throws chladni::Error with the angle when no node of the mesh stands at a place, or when
-///         several do, one above the other, and the ring has no z.
+///         several do, one above the other, and the ring has no z; of a ring on faces where there
+///         is no face or where it is not plane, with the heights of those that there are.
 void add_rings(Mesh& mesh, std::span<const RingOptions> rings);
 
 }  // namespace chladni::mesh

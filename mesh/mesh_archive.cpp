@@ -29,6 +29,12 @@ void transfer_group(auto& archive, auto& group)
   archive(group.nodes);
 }
 
+void transfer_face_node(auto& archive, auto& on_face)
+{
+  auto& [node, nodes, weights] = on_face;
+  archive.all(node, nodes, weights);
+}
+
 void transfer_mesh(auto& archive, auto& mesh)
 {
   archive(mesh.node_numbers);
@@ -38,6 +44,7 @@ void transfer_mesh(auto& archive, auto& mesh)
   archive.each(mesh.notes, [](auto& a, auto& note) { a(note); });
   archive(mesh.sectors.count);
   archive(mesh.sectors.pairs);
+  archive.each(mesh.face_nodes, [](auto& a, auto& on_face) { transfer_face_node(a, on_face); });
   archive(mesh.made_by);
 }
 
@@ -146,6 +153,11 @@ void check_unpacked(const Mesh& mesh)
   }
   for (const auto& [low, high] : mesh.sectors.pairs)
     check_indices({low, high}, 0, mesh.positions.size(), "a pair of nodes that are not there");
+  for (const FaceNode& on_face : mesh.face_nodes) {
+    check_indices({on_face.node}, 0, mesh.positions.size(), "a node on a face that is not there");
+    check_indices(on_face.nodes, 0, mesh.positions.size(), "a face of nodes that are not there");
+    require(on_face.nodes.size() == on_face.weights.size(), "a node on a face without weights");
+  }
 }
 
 }  // namespace
@@ -182,8 +194,8 @@ namespace {
 void transfer_rings(auto& archive, auto& rings)
 {
   archive.each(rings, [](auto& a, auto& ring) {
-    auto& [name, radius, nodes, z] = ring;
-    a.all(name, radius, nodes, z);
+    auto& [name, radius, nodes, z, on, width] = ring;
+    a.all(name, radius, nodes, z, on, width);
   });
 }
 

@@ -109,12 +109,20 @@ inline std::string instead_of(std::string_view file)
   return "; meshio makes a .msh of a .vtu, and lines of docs/how-to/meshes.md keep its groups";
 }
 
+/// What has the nodes of a ring.
+enum class RingOn {
+  nodes,  ///< nodes of the mesh stand at its places
+  face    ///< it has nodes of its own, which follow the faces of solids
+};
+
 /// Nodes at equal angles on a circle about the z axis, the first on the x axis.
 struct RingOptions {
   std::string name;
   double radius;  ///< m
   int nodes;
   std::optional<double> z = {};  ///< m; needed where several surfaces meet the cylinder
+  RingOn on = RingOn::nodes;
+  double width = 0.0;  ///< m, of the patch of faces whose mean a node is; 0: a point
 };
 
 /// The layout of the elements of a generator.

@@ -89,6 +89,7 @@ Mesh solids_over(MeshOptions flat)
     rings = flat.annulus->rings;
     std::vector<RingOptions> circles;
     for (RingOptions ring : rings) {
+      if (ring.on == RingOn::face) continue;
       const auto same = std::ranges::find(circles, ring.radius, &RingOptions::radius);
       ring.z.reset();
       if (same == circles.end())

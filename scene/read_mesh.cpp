@@ -19,6 +19,15 @@ mesh::RingOptions read_ring(const Table& ring, const Admissible& radii)
                             .radius = ring.number("radius", radii),
                             .nodes = ring.integer("nodes")};
   if (ring.has("z")) options.z = ring.number("z");
+  if (ring.has("on")) {
+    options.on = ring.choice<mesh::RingOn>(
+        "on", {{"nodes", mesh::RingOn::nodes}, {"face", mesh::RingOn::face}});
+  }
+  if (!ring.has("width")) return options;
+  if (options.on != mesh::RingOn::face)
+    ring.refuse("width", "is for rings with on = \"face\", whose nodes are means over faces");
+  options.width =
+      ring.number("width", {.at_most = 2.0 * options.radius, .unit = "m, the diameter"});
   return options;
 }
 
@@ -135,6 +144,19 @@ mesh::MeshOptions read_file(const Table& mesh, Size size, const std::string& sce
   return options;
 }
 
+/// Nodes on faces are found on whole bodies alone.
+void refuse_sectors_of_faces(const Table& mesh, const std::vector<mesh::RingOptions>& rings)
+{
+  if (!mesh.has("sectors") || (!finds_sectors(mesh) && read_sectors(mesh) == 1)) return;
+  for (const mesh::RingOptions& ring : rings) {
+    if (ring.on == mesh::RingOn::nodes) continue;
+    mesh.refuse("sectors",
+                "ring \"" + ring.name +
+                    "\" is on a face, and those of sectors need nodes of the mesh at its "
+                    "places; take the whole body, or out on = \"face\"");
+  }
+}
+
 mesh::SectorSearch read_sector_search(const Table& root, const Table& mesh)
 {
   if (mesh.has("sectors"))
@@ -192,6 +214,9 @@ mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path)
       is_file ? read_file(mesh, size, scene_path) : read_generator(mesh, size);
   if (options.file || options.annulus || options.hat_disc)
     options.sector_search = read_sector_search(root, mesh);
+  refuse_sectors_of_faces(mesh, rings_of(options));
+  if (std::ranges::count(rings_of(options), mesh::RingOn::face, &mesh::RingOptions::on) > 0)
+    options.sector_search = mesh::SectorSearch::none;
   return options;
 }
 

@@ -309,6 +309,7 @@ std::map<Entity, std::vector<Entity>> join(const std::vector<RingOptions>& rings
   }
   std::vector<Entity> tools;
   for (const RingOptions& ring : rings) {
+    if (ring.on == RingOn::face) continue;
     const std::vector<Entity> arcs = add_ring_arcs(ring);
     tools.insert(tools.end(), arcs.begin(), arcs.end());
   }

@@ -9,8 +9,10 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
+#include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "mesh/element_types.hpp"
 #include "plate/elements/interpolation.hpp"
@@ -526,20 +528,170 @@ std::vector<MotionTerm> NodeMotions::motion(int node) const
   return terms;
 }
 
+bool NodeMotions::has_combined_motions() const
+{
+  return std::ranges::any_of(combined, [](const auto& of) { return !of.second.by_faces; });
+}
+
 const std::string& NodeMotions::followed(int node) const
 {
   const auto it = combined.find(node);
   return it == combined.end() ? names_followed[node] : it->second.followed;
 }
 
-NodeMotions average_motions(const mesh::Mesh& mesh, std::span<const Coupling> couplings,
-                            NumberedNodes nodes)
+void rewrite_by_faces(NodeMotions& motions, const std::map<int, std::vector<MotionTerm>>& became)
 {
-  NodeMotions motions{std::move(nodes), {}};
+  for (auto& [node, motion] : motions.combined) {
+    if (!motion.by_faces) continue;
+    Blocks T;
+    const auto add = [&](int number, const Matrix6d& block) {
+      T.try_emplace(number, Matrix6d::Zero()).first->second += block;
+    };
+    for (const MotionTerm& term : motion.terms) {
+      const auto found = became.find(term.number);
+      if (found == became.end())
+        add(term.number, term.T);
+      else
+        for (const MotionTerm& other : found->second) add(other.number, term.T * other.T);
+    }
+    motion.terms.clear();
+    for (const auto& [number, block] : T) motion.terms.push_back({number, block});
+  }
+}
+
+namespace {
+
+/// The ring that a node is of.
+const std::string& ring_of(const mesh::Mesh& mesh, int node)
+{
+  const auto has = [&](const mesh::Group& group) {
+    return std::ranges::find(group.nodes, node) != group.nodes.end();
+  };
+  return std::ranges::find_if(mesh.groups, has)->name;
+}
+
+/// The equations u = A u_j of the nodes on faces, and the places of those that they are solved for.
+struct FaceEquations {
+  std::vector<int> nodes;     ///< of the faces, ascending
+  MatrixXd A;                 ///< [n on faces x n nodes]
+  std::vector<Index> pivots;  ///< [n on faces] columns
+  MatrixXd P_inverse;         ///< of these columns of A
+
+  FaceEquations(const mesh::Mesh& mesh, const NodeMotions& motions);
+  int pivot(Index i) const { return nodes[std::size_t(pivots[std::size_t(i)])]; }
+
+ private:
+  void choose_pivots(const mesh::Mesh& mesh, const NodeMotions& motions);
+};
+
+FaceEquations::FaceEquations(const mesh::Mesh& mesh, const NodeMotions& motions)
+{
+  for (const mesh::FaceNode& on_face : mesh.face_nodes)
+    nodes.insert(nodes.end(), on_face.nodes.begin(), on_face.nodes.end());
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  A = MatrixXd::Zero(std::ssize(mesh.face_nodes), std::ssize(nodes));
+  for (Index k = 0; k < A.rows(); ++k) {
+    const mesh::FaceNode& on_face = mesh.face_nodes[std::size_t(k)];
+    for (std::size_t j = 0; j < on_face.nodes.size(); ++j)
+      A(k, std::ranges::lower_bound(nodes, on_face.nodes[j]) - nodes.begin()) = on_face.weights[j];
+  }
+  choose_pivots(mesh, motions);
+  constexpr double none = 1e-14;  // what nodes far along a ring have of each other
+  const MatrixXd inverse = A(every, pivots).inverse();
+  P_inverse = (inverse.array().abs() < none * inverse.cwiseAbs().maxCoeff()).select(0.0, inverse);
+}
+
+void FaceEquations::choose_pivots(const mesh::Mesh& mesh, const NodeMotions& motions)
+{
+  // Rows of one size: means over patches have small weights.
+  MatrixXd weights = A.array().colwise() / A.cwiseAbs().rowwise().maxCoeff().array();
+  for (Index j = 0; j < A.cols(); ++j)
+    if (!motions.is_plain(nodes[std::size_t(j)])) weights.col(j).setZero();
+  constexpr double not_small = 0.25, distinct = 1e-4;
+  pivots.assign(std::size_t(A.rows()), -1);
+  std::vector<Index> rest;
+  const Eigen::VectorXi n_users = (weights.array() != 0.0).cast<int>().colwise().sum().matrix();
+  for (Index k = 0; k < A.rows(); ++k) {
+    const Eigen::RowVectorXd own =
+        (n_users.transpose().array() == 1).select(weights.row(k).cwiseAbs(), 0.0);
+    if (own.maxCoeff(&pivots[std::size_t(k)]) < not_small) rest.push_back(k);
+  }
+  if (rest.empty()) return;
+  for (Index k = 0; k < A.rows(); ++k)
+    if (std::ranges::find(rest, k) == rest.end()) weights.col(pivots[std::size_t(k)]).setZero();
+  const MatrixXd left = weights(rest, every);
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(left);
+  const Eigen::VectorXd diagonal = qr.matrixR().diagonal().cwiseAbs();
+  if (diagonal.size() < std::ssize(rest) || diagonal.minCoeff() < distinct * diagonal.maxCoeff()) {
+    const int node = mesh.face_nodes[std::size_t(rest.back())].node;
+    throw Error(fmt::format(
+        "ring \"{}\": its nodes on faces are closer than the nodes of the mesh can tell apart, or "
+        "the faces follow a coupling; take fewer nodes on the ring, or smaller elements there",
+        ring_of(mesh, node)));
+  }
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    pivots[std::size_t(rest[i])] = qr.colsPermutation().indices()[Index(i)];
+}
+
+/// The motion of the node that equation i is solved for, by what stands in its place and the
+/// others.
+CombinedMotion pivot_on_face(const FaceEquations& equations, const NodeMotions& motions, Index i,
+                             const std::string& ring)
+{
+  constexpr std::size_t most = 1000;  // numbers: element matrices have as many columns, times 6
+  const auto& [nodes, A, pivots, P_inverse] = equations;
+  Eigen::RowVectorXd by_node = -P_inverse.row(i) * A;
+  for (std::size_t k = 0; k < pivots.size(); ++k)  // where pivots stood there are nodes on faces
+    by_node[pivots[k]] = P_inverse(i, Index(k));
+  Blocks T;
+  for (Index j = 0; j < by_node.size(); ++j) {
+    if (by_node[j] == 0.0) continue;
+    for (const MotionTerm& term : motions.motion(nodes[std::size_t(j)]))
+      T.try_emplace(term.number, Matrix6d::Zero()).first->second += by_node[j] * term.T;
+  }
+  if (T.size() > most) {
+    throw Error(fmt::format(
+        "ring \"{}\": its nodes on faces are so close that one of them depends on {} nodes of the "
+        "mesh, {} at most; take fewer nodes on the ring",
+        ring, T.size(), most));
+  }
+  CombinedMotion motion{.followed = ring, .terms = {}, .coordinates = {}, .by_faces = true};
+  motion.coordinates.fill(-1);
+  for (const auto& [number, block] : T) motion.terms.push_back({number, block});
+  return motion;
+}
+
+}  // namespace
+
+NodeMotions face_motions(const mesh::Mesh& mesh, NumberedNodes numbered)
+{
+  NodeMotions motions{std::move(numbered), {}};
+  if (mesh.face_nodes.empty()) return motions;
+  const FaceEquations equations(mesh, motions);
+  std::map<int, CombinedMotion> combined;
+  for (Index i = 0; i < equations.A.rows(); ++i) {
+    const int ring_node = mesh.face_nodes[std::size_t(i)].node;
+    combined.emplace(equations.pivot(i),
+                     pivot_on_face(equations, motions, i, ring_of(mesh, ring_node)));
+  }
+  for (Index k = 0; k < equations.A.rows(); ++k) {
+    motions.numbers[std::size_t(mesh.face_nodes[std::size_t(k)].node)] =
+        std::exchange(motions.numbers[std::size_t(equations.pivot(k))], -1);
+  }
+  motions.combined = std::move(combined);
+  return motions;
+}
+
+NodeMotions average_motions(const mesh::Mesh& mesh, std::span<const Coupling> couplings,
+                            NodeMotions motions)
+{
   std::map<int, int> claimed;
   std::vector<int> node_of(motions.n_active(), -1);
   for (int node = 0; node < motions.n_nodes(); ++node)
     if (motions.number(node) >= 0) node_of[motions.number(node)] = node;
+  for (const mesh::FaceNode& on_face : mesh.face_nodes)  // whose DOFs stay those of rings
+    node_of[motions.number(on_face.node)] = -1;
   for (int i = 0; i < std::ssize(couplings); ++i) {
     if (couplings[i].kind != CouplingKind::averaging) continue;
     const std::vector<int>& group = mesh::find_group(mesh, couplings[i].group).nodes;
@@ -550,13 +702,16 @@ NodeMotions average_motions(const mesh::Mesh& mesh, std::span<const Coupling> co
     const Pivots pivots =
         choose_pivots(A, node_of, size_of(motions, group, reference), couplings[i]);
     motions.combined.emplace(reference, reference_motion(pivots));
+    std::map<int, std::vector<MotionTerm>> became;
     for (const int dof : pivots.dof) {
       const int node = node_of[dof / 6];
       if (motions.combined.contains(node)) continue;
       CombinedMotion motion = pivot_node_motion(motions, node, A, pivots);
       motion.followed = couplings[i].name;
+      became.emplace(motions.number(node), motion.terms);
       motions.combined.emplace(node, std::move(motion));
     }
+    rewrite_by_faces(motions, became);
   }
   return motions;
 }

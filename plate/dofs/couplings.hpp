@@ -109,6 +109,8 @@ struct CombinedMotion {
   /// The coordinate that equals each component of the motion, as 6 * number + place; -1 if there is
   /// none.
   std::array<int, 6> coordinates;
+  /// Whether nodes on faces make it, by which all motions remain what the geometry says.
+  bool by_faces = false;
 };
 
 /// Nodes with averaging couplings. Such a coupling replaces six displacements of nodes of its group
@@ -116,7 +118,8 @@ struct CombinedMotion {
 struct NodeMotions : NumberedNodes {
   std::map<int, CombinedMotion> combined;  ///< by node
 
-  bool has_combined_motions() const { return !combined.empty(); }
+  /// Whether DOFs are other than the motions of the places of their nodes.
+  bool has_combined_motions() const;
   /// True if the motion of a node is that of its own DOFs.
   bool is_independent(int node) const { return !is_dependent(node) && !combined.contains(node); }
   /// True if these DOFs are those of one active number.
@@ -126,6 +129,14 @@ struct NodeMotions : NumberedNodes {
   /// The name of the coupling or ring that the motion of a node depends on; empty for none.
   const std::string& followed(int node) const;
 };
+
+/// The motions of nodes with nodes on faces, u_k = sum_j w_kj u_j. These equations are solved for
+/// as many of the u_j: of each k for a node that no other k has, as far as there is one with a
+/// weight that is not small, else by pivoting. A node on a face takes the number of the node that
+/// it was solved for, which becomes a combination of the others.
+/// @throws chladni::Error when a node on a face follows a coupling, when the nodes of a ring are
+///         closer than the mesh can tell apart, or when no node of a face stands on its own DOFs.
+NodeMotions face_motions(const mesh::Mesh& mesh, NumberedNodes nodes);
 
 /// The motions of nodes with averaging couplings. With x_i the nodes of the group, w_i their
 /// group_shares divided by the sum of these, c = sum w_i x_i and r_i = x_i - c, the reference node
@@ -139,7 +150,12 @@ struct NodeMotions : NumberedNodes {
 /// @throws chladni::Error when groups overlap or have no six independent displacements (fewer than
 ///         three nodes, or all of them on one line).
 NodeMotions average_motions(const mesh::Mesh& mesh, std::span<const Coupling> couplings,
-                            NumberedNodes nodes);
+                            NodeMotions motions);
+
+/// Writes what nodes on faces make of others anew, after the coordinates of some numbers became
+/// combinations of others.
+/// @param became  by number: the motion of the node that had the number
+void rewrite_by_faces(NodeMotions& motions, const std::map<int, std::vector<MotionTerm>>& became);
 
 /// int N_i ds of each node, m, over the element edges or lines that have all their nodes in the
 /// group. An edge between two elements counts once. Empty if there is no such edge.

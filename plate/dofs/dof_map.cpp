@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -185,15 +186,40 @@ std::vector<int> DofMap::components_of(int node) const
   return {0, 1, 2, 3, 4, 5};
 }
 
+namespace {
+
+/// A node on a face moves as that alone does.
+void refuse_couplings_of_face_nodes(const mesh::Mesh& mesh, std::span<const Coupling> couplings)
+{
+  for (const Coupling& coupling : couplings) {
+    for (const mesh::Group& group : mesh.groups) {
+      if (group.name != coupling.group && group.name != coupling.to) continue;
+      for (const mesh::FaceNode& on_face : mesh.face_nodes) {
+        if (std::ranges::find(group.nodes, on_face.node) == group.nodes.end()) continue;
+        throw Error(
+            fmt::format("{}: \"{}\" has nodes on faces (on = \"face\"), which follow those and no "
+                        "coupling; couple a group of nodes of the mesh",
+                        describe(coupling), group.name));
+      }
+    }
+  }
+}
+
+}  // namespace
+
 DofMap make_dof_map(const mesh::Mesh& mesh, const Kinematics& kinematics,
                     std::span<const int> owners, int n_ranks)
 {
   const std::span<const Coupling> couplings = kinematics.couplings;
+  refuse_couplings_of_face_nodes(mesh, couplings);
   CoupledNodes coupled = follow_references(mesh, couplings);
   coupled.rotating = rotating_nodes(mesh, couplings, coupled);
   const bool has_solids = !coupled.rotating.empty();
-  NumberedNodes numbered = number_nodes(std::move(coupled), couplings, owners, n_ranks);
-  NodeMotions averaged = average_motions(mesh, couplings, std::move(numbered));
+  std::vector<int> numbering(owners.begin(), owners.end());
+  for (const mesh::FaceNode& on_face : mesh.face_nodes)  // it takes the number of another node
+    numbering[std::size_t(on_face.node)] = -1;
+  NumberedNodes numbered = number_nodes(std::move(coupled), couplings, numbering, n_ranks);
+  NodeMotions averaged = average_motions(mesh, couplings, face_motions(mesh, std::move(numbered)));
   check_components(kinematics);
   return {with_ring_harmonics(mesh, std::move(averaged), kinematics.rings),
           has_solids ? std::vector{0, 1, 2} : kinematics.components};
@@ -317,8 +343,10 @@ Matrix6d directions(const Matrix3d& axes, double angle)
 std::set<int> averaged_numbers(const NodeMotions& motions)
 {
   std::set<int> numbers;
-  for (const auto& [node, motion] : motions.combined)
+  for (const auto& [node, motion] : motions.combined) {
+    if (motion.by_faces) continue;
     for (const MotionTerm& term : motion.terms) numbers.insert(term.number);
+  }
   return numbers;
 }
 
@@ -366,6 +394,7 @@ RingMotions with_ring_harmonics(const mesh::Mesh& mesh, NodeMotions motions,
     HarmonicRing ring{
         .name = wanted.ring, .up_to = wanted.up_to, .nodes = circle.nodes, .numbers = {}};
     for (const int node : circle.nodes) ring.numbers.push_back(with.number(node));
+    std::map<int, std::vector<MotionTerm>> became;
     for (Index i = 0; i < F.rows(); ++i) {
       const Matrix6d E = directions(circle.axes, circle.angles[i]);
       CombinedMotion motion{.followed = wanted.ring, .terms = {}, .coordinates = {}};
@@ -373,8 +402,11 @@ RingMotions with_ring_harmonics(const mesh::Mesh& mesh, NodeMotions motions,
       for (Index k = 0; k < F.cols(); ++k)
         for (const MotionTerm& own : with.own_motion(circle.nodes[std::size_t(k)]))
           motion.terms.push_back({own.number, F(i, k) * (E * own.T)});
-      with.combined.emplace(circle.nodes[static_cast<std::size_t>(i)], std::move(motion));
+      const int node = circle.nodes[static_cast<std::size_t>(i)];
+      became.emplace(with.number(node), motion.terms);
+      with.combined.emplace(node, std::move(motion));
     }
+    rewrite_by_faces(with, became);
     with.rings.push_back(std::move(ring));
   }
   return with;

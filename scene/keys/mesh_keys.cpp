@@ -71,12 +71,20 @@ constexpr Key mesh_rows[] = {
      "1: the whole body; \"auto\": as many as the mesh of the whole body has; "
      "[sectors](../how-to/sectors.md)",
      from_to(1, 1e4)},
-    {"mesh.rings", tables, "none", "circles with nodes exactly on them"},
+    {"mesh.rings", tables, "none", "circles with nodes exactly on them, or on faces of solids"},
     {"mesh.rings.name", text, "required", "by which the scene speaks of it"},
     {"mesh.rings.radius", number, "required", "about the z axis", positive("m")},
     {"mesh.rings.nodes", integer, "required", "at equal angles from the x axis", from_to(3, 1e5)},
     {"mesh.rings.z", number, "any", "of the circle, where several surfaces cross its cylinder",
      in("m")},
+    {"mesh.rings.on", word, "nodes",
+     "`face`: the ring has nodes of its own, which follow the plane face of any "
+     "[solids](../how-to/solids.md#rings-on-any-mesh)",
+     no_number, "nodes | face"},
+    {"mesh.rings.width", number, "0: at points",
+     "`face`: a node is the mean over a patch of the face so wide, and as long as the nodes are "
+     "apart",
+     positive("m")},
     {"mesh.parameters", table, "none", ".geo: numbers of its DefineConstant"},
     {"mesh.parameters.*", number, "", "any name that the .geo defines"},
     {"mesh.length_unit", word, "m; decks, .unv, .med: required",

@@ -305,6 +305,63 @@ def example(programs, folder):
         yield f"examples/solid_disc: critical frequency {critical}"
 
 
+FOREIGN_GEO = """
+SetFactory("OpenCASCADE");
+Cylinder(1) = {0,0,-0.01, 0,0,0.02, 0.162};
+Cylinder(2) = {0,0,-0.01, 0,0,0.02, 0.025};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Physical Volume("disc") = {3};
+Physical Surface("inner_edge") = Surface In BoundingBox {-0.026,-0.026,-0.02, 0.026,0.026,0.02};
+Mesh.MeshSizeMax = 0.014;
+"""
+FOREIGN = """
+[mesh]
+file = "foreign.geo"
+rings = [
+    {{ name = "upper", radius = 0.13, nodes = 30, z = 0.01{on} }},
+    {{ name = "lower", radius = 0.13, nodes = 30, z = -0.01{on} }},
+]
+"""
+
+
+def critical_values(programs, folder, scene, *mpirun):
+    """rad/s and Hz, of `squeal run`."""
+    (folder / "ring.toml").write_text(scene)
+    run(programs / "chladni", "run", folder / "ring.toml", "--output", folder, "--overwrite", mpirun=mpirun[0] if mpirun else None,
+        ranks=3 if mpirun else 1)  # fmt: skip
+    found = summary(programs / "squeal", "run", folder / "ring.toml", "--output", folder, "--overwrite")
+    return found["critical_speed_rad_s"], found["critical_frequency_Hz"]
+
+
+def rings_on_faces(programs, folder, mpirun):
+    """A disc of tetrahedra without nodes on its rings has its own frequencies, and squeals as the one with such nodes."""
+    (folder / "foreign.geo").write_text(FOREIGN_GEO)
+    example = (Path(__file__).parents[2] / "examples/solid_disc/scene.toml").read_text()
+    begin, end = example.index("[mesh]"), example.index("[material.iron]")
+    scene = {on: example[:begin] + FOREIGN.format(on=on) + example[end:]
+             for on in ("", ', on = "face"', ', on = "face", width = 0.03')}  # fmt: skip
+    exact = critical_values(programs, folder, example)
+    for on in list(scene)[1:]:
+        found = critical_values(programs, folder, scene[on])
+        print(f"ring on a face{on}: {found}, with nodes {exact}")
+        if not max(abs(f / e - 1.0) for f, e in zip(found, exact)) < 5e-3:  # the mesh of the example is coarse
+            yield f"ring{on}: {found}, with nodes {exact}"
+        on_three = critical_values(programs, folder, scene[on], mpirun)
+        if not max(abs(a / b - 1.0) for a, b in zip(found, on_three)) < 1e-8:
+            yield f"ring{on}: {found}, on three ranks {on_three}"
+    (folder / "scene.toml").write_text(scene[""])
+    said = run(programs / "chladni", "run", folder / "scene.toml", "--output", folder, "--overwrite", code=1)
+    if 'or say on = "face" in the ring' not in said:
+        yield f"a ring without nodes: {said!r}"
+    support = '[[support]]\ngroup = "hub"\ndofs = ["x", "y", "z", "rx", "ry", "rz"]\n[modes]\ncount = 12\n'
+    modes = scene[', on = "face", width = 0.03']
+    modes = modes[: modes.index("[interface]")] + support
+    plain = modes[: modes.index("rings = [")] + modes[modes.index("[material.iron]") :]
+    (_, with_rings), (_, without) = frequencies(programs, folder, modes), frequencies(programs, folder, plain)
+    if not error(with_rings, without) < 1e-9:  # the same space in another basis
+        yield f"rings change the frequencies of the mesh: {with_rings}, without {without}"
+
+
 def few_ring_nodes(programs, folder):
     """Nodes without rotations do not tell 5 diameters from 3 on a ring of 8; the rest of the mesh does."""
     scene = (Path(__file__).parents[2] / "examples/solid_disc/scene.toml").read_text()
@@ -332,6 +389,7 @@ def failures(programs, mpirun, folder):
     yield from calculix(programs, folder)
     yield from example(programs, folder)
     yield from few_ring_nodes(programs, folder)
+    yield from rings_on_faces(programs, folder, mpirun)
 
 
 if __name__ == "__main__":
