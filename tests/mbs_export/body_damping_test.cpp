@@ -54,6 +54,20 @@ TEST(LossFactors, OfOneMaterialGiveLambdaOfTheClosedForm)
   EXPECT_LT((body.C - MatrixXd((eta * body.omega).asDiagonal())).norm(), 1e-9 * body.C.norm());
 }
 
+TEST(LossFactors, OfRigidMotionsAreZero)
+{
+  constexpr double eta = 0.03;
+  ReducedSystem wheel = test::wheel();
+  wheel.H = eta * wheel.K;
+  BodyOptions free = held();
+  free.fixed.clear();
+  const ModalBody body = make_body(wheel, free);
+  ASSERT_GT(body.n_free_rigid, 0);
+  const VectorXd found = loss_factors(body);
+  for (Index i = 0; i < found.size(); ++i)
+    EXPECT_NEAR(found[i], body.omega[i] > 0.0 ? eta : 0.0, 1e-6) << i;  // K of a free body, rounded
+}
+
 TEST(LossFactors, OfSeveralMaterialsAreWeightedByEnergy)
 {
   // eta = sum eta_e U_e / sum U_e of the elastic energies in the mode.

@@ -212,11 +212,15 @@ TEST(ModalAssurance, ComparesWithNaturalModesAlone)
   for (Eigen::Index k = 0; k < 3; ++k) EXPECT_NEAR(found.mac(k, k), 1.0, 1e-6);
 }
 
-TEST(ModalAssurance, RefusesNodesThatAreElsewhere)
+TEST(ModalAssurance, RefusesNodesThatAreElsewhereAndShapesThatAreNone)
 {
   const ModalBody body = held_beam();
   MeasuredModes measured = of_held_beam(body);
   EXPECT_NE(error_of([&] { modal_assurance(body, measured, 0.0005); }).find("101"),
+            std::string::npos);
+  MeasuredModes still = of_held_beam(body);
+  still.shapes.col(1).setZero();
+  EXPECT_NE(error_of([&] { modal_assurance(body, still, 0.002); }).find("measured shape 2 is zero"),
             std::string::npos);
   measured.nodes[1].position = measured.nodes[0].position;
   EXPECT_NE(error_of([&] { modal_assurance(body, measured, 0.002); }).find("102"),
