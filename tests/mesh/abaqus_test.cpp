@@ -403,6 +403,7 @@ const std::vector<Refusal> refused_keywords{
     {abaqus_plate + "*Element, type=S4\n5, 1, 2, 3\n", {"line 16", "4 nodes"}},
     {abaqus_plate + "*Element, type=S4\n1, 1, 2, 3, 4\n", {"element 1", "twice"}},
     {abaqus_plate + "*Element, type=S9R5\n", {"S9R5", "not known"}},
+    {abaqus_plate + "*Element, type=S4, offset=0.5\n5, 1, 2, 3, 4\n", {"*ELEMENT", "OFFSET"}},
     {abaqus_plate + "*Element, type=S4\n5, 1, 2, 3,\n", {"ends with a comma"}},
     {abaqus_plate + "*Element, type=B31, elset=Plate\n5, 1, 2\n",
      {"*SHELL SECTION", "\"PLATE\"", "element 5", "B31"}},

@@ -115,6 +115,22 @@ TEST(MeasuredFriction, HasACurveAtEachPressureOfEachTemperature)
   EXPECT_NEAR(squeal::friction_coefficient(law, 5.0, 1e6), 1.1 * 0.45, 1e-12);
 }
 
+TEST(MeasuredFriction, NeedsNoTemperatureOrNoPressure)
+{
+  const std::string low = "{ pressure_Pa = 1e6, speed_m_s = [0.1, 5], mu = [0.4, 0.3] }",
+                    high = "{ pressure_Pa = 3e6, speed_m_s = [0.1, 5], mu = [0.2, 0.2] }";
+  const squeal::FrictionLaw of_pressures =
+      scene_with(with_table(low + ", " + high)).squeal->friction;
+  ASSERT_EQ(of_pressures.table->curves.size(), 2u);
+  EXPECT_NEAR(squeal::friction_coefficient(of_pressures, 5.0, 2e6), 0.25, 1e-12);
+  const std::string either =
+      replaced(hot, "pressure_Pa = 1e6, ", "") + ", " + replaced(cold, "pressure_Pa = 1e6, ", "");
+  const squeal::FrictionLaw of_temperatures =
+      scene_with(with_table(either, "temperature_C = 150.0, ")).squeal->friction;
+  ASSERT_EQ(of_temperatures.table->curves.size(), 2u);
+  EXPECT_NEAR(squeal::friction_coefficient(of_temperatures, 5.0, 7e6), 0.45, 1e-12);
+}
+
 TEST(MeasuredFriction, IsRefusedWithTheKeyAndTheRange)
 {
   const std::string both = hot + ", " + cold;

@@ -92,6 +92,17 @@ TEST(SceneMesh, HoldsThePadInRadians)
   EXPECT_EQ(options.pad->pattern, mesh::Pattern::triangles);
 }
 
+TEST(SceneMesh, KnowsTheEdgesOfAPad)
+{
+  const std::string pad =
+      "generator = \"pad\"\ninner_radius = 0.1\nouter_radius = 0.15\nangle_deg = 60.0\n"
+      "centre_deg = 90.0\nelement_size = 0.01\n";
+  const std::string error = error_of(
+      test::replaced(scene_of_mesh(pad, "pad"), "nodes = [\"outer_edge\"]", "nodes = [\"rim\"]"));
+  const char* groups = "\"inner_edge\", \"outer_edge\", \"first_edge\", \"last_edge\", \"corners\"";
+  EXPECT_NE(error.find(groups), std::string::npos) << error;
+}
+
 TEST(SceneMesh, HoldsTheRectangle)
 {
   const auto options = options_of(

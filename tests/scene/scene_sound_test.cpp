@@ -126,6 +126,8 @@ TEST(SoundOfAScene, NamesWhatIsWrong)
                {"outline", "from", "r >= 0"});
   expect_words(with("wav = { microphone = \"b\", rate_Hz = 48000, duration_s = 2.0 }\n"),
                {"microphone", "\"b\"", "\"a\""});
+  expect_words(with("wav = { microphone = \"a\", rate_Hz = 200000, duration_s = 2.0 }\n"),
+               {"sound.wav.rate_Hz", "200000", ">= 8000 and <= 192000 (Hz)"});
   expect_words(
       error_of(sounding_disc + "[sound]\nmicrophones = [{ name = \"a\", position = [0.5] }]\n"),
       {"position"});
