@@ -18,11 +18,12 @@
 #include "cases/section_forces.hpp"
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
-#include "common/files/input_file.hpp"
 #include "linear/cholesky/petsc_factor.hpp"
+#include "mesh/nodal_matrices.hpp"
 #include "mesh/partition.hpp"
 #include "reduce/craig_bampton.hpp"
 #include "reduce/reduced_system.hpp"
+#include "report/origin.hpp"
 #include "report/version.hpp"
 
 namespace chladni::cases {
@@ -122,11 +123,30 @@ RowsOf rows_of(const SceneReduction& reduced)
   };
 }
 
+/// Whether the integrals over the mass are wanted, and follow from what is known of it.
+bool has_mass_integrals(const scene::Scene& scene, const mesh::Mesh& mesh)
+{
+  if (!scene.mass_integrals || !mesh.matrices || mesh::is_mass_of_points(*mesh.matrices))
+    return scene.mass_integrals;
+  if (scene.squeal) {
+    scene::refuse_key(scene, "mesh.matrices",
+                      "the mass couples directions or rotations, so that Coriolis and centrifugal "
+                      "terms of a disc that turns do not follow from it; `mass_integrals = false` "
+                      "in [reduce] leaves them out");
+  }
+  on_first_rank([] {
+    report::tell_note(
+        "the mass of the matrices couples directions or rotations: there are no integrals over the "
+        "mass for a body that moves far or turns");
+  });
+  return false;
+}
+
 /// Room for interface modes of the whole model, mass integrals, pictures and section forces.
 SceneReduction with_what_bodies_need(const scene::Scene& scene, const FeModel& fe,
                                      SceneReduction reduced, Phases& phases)
 {
-  if (scene.mass_integrals) {
+  if (has_mass_integrals(scene, fe.mesh)) {
     phases.begin("mass integrals");
     reduced.system.mass_integrals = mass_integrals(structure_of(scene), fe, reduced);
   }
@@ -179,14 +199,13 @@ MatrixXd projected(const SceneReduction& reduced, Mat A, linear::FormSymmetry sy
 mbs_export::Provenance provenance(const scene::Scene& scene, const SaidOfSolvers& solvers,
                                   const mesh::Mesh& mesh)
 {
-  return {
-      .scene = scene.text,
-      .mesh_checksum = mesh::checksum(mesh),
-      .versions =
-          fmt::format("Chladni {}; {}{}", report::version, reduce::library_versions(), maker(mesh)),
-      .options = solvers.text,
-      .ranks = n_ranks(),
-      .mesh_file_digest = scene.mesh.file ? files::file_digest(*scene.mesh.file) : std::string()};
+  return {.scene = scene.text,
+          .mesh_checksum = mesh::checksum(mesh),
+          .versions = fmt::format("Chladni {}; {}{}", report::version, reduce::library_versions(),
+                                  maker(mesh)),
+          .options = solvers.text,
+          .ranks = n_ranks(),
+          .mesh_file_digest = report::digest_of_mesh_files(scene)};
 }
 
 namespace {

@@ -127,9 +127,12 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
 void declare_import(CLI::App& app, chladni::cli::ImportArguments& arguments)
 {
   CLI::App* imported = app.add_subcommand(
-      "import", "writes a scene with the mesh and model of a deck of another program");
+      "import",
+      "writes a scene with the mesh and model of a deck of another program, or of a superelement");
   const std::string decks = chladni::mesh::extensions_with_programs(chladni::mesh::is_deck);
-  imported->add_option("DECK", arguments.deck, decks)->required();
+  imported
+      ->add_option("DECK", arguments.deck, decks + "; superelements of Nastran: .pch, .dmig, .op4")
+      ->required();
   chladni::cli::declare_length_unit(*imported, arguments.length_unit);
   imported->get_option("--length-unit")->required();
   imported
@@ -139,7 +142,10 @@ void declare_import(CLI::App& app, chladni::cli::ImportArguments& arguments)
       ->check(CLI::IsMember({"N", "mN", "kN", "lbf"}));
   imported->add_option("--output", arguments.output, "scene file to write; default: print it")
       ->type_name("FILE");
-  imported->footer("Example:\n  chladni import disc.bdf --length-unit mm --output scene.toml");
+  imported->footer(
+      "Examples:\n  chladni import disc.bdf --length-unit mm --output scene.toml\n"
+      "  chladni import pad.pch --length-unit mm --output out/pad.toml    (and "
+      "out/pad.reduced.h5)");
 }
 
 /// What tells of files of Chladni.

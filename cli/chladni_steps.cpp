@@ -29,6 +29,10 @@ void apply_mesh_arguments(const ChladniArguments& arguments, mesh::MeshOptions& 
 scene::Scene read_scene_to_mesh(const ChladniArguments& arguments, scene::Purpose purpose)
 {
   scene::Scene scene = scene::read_meshed_scene(arguments.scene.scene, purpose);
+  const bool reads_its_reduction =
+      scene.response && scene.response->model != mbs_export::ResponseModel::fe;
+  if (!scene.has_mesh && !reads_its_reduction)
+    scene::refuse_key(scene, "mesh", "is missing: this scene is for `chladni body` alone");
   apply_mesh_arguments(arguments, scene.mesh);
   cases::on_first_rank([&] { tell_notes(scene); });
   return scene;

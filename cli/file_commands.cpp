@@ -8,6 +8,7 @@
 
 #include "cases/declared_scene.hpp"
 #include "cases/ranks.hpp"
+#include "cases/superelement.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
 #include "common/error.hpp"
@@ -137,7 +138,7 @@ double newtons_of(const std::string& unit)
 {
   if (unit == "mN") return 1e-3;
   if (unit == "kN") return 1e3;
-  return unit == "lbf" ? 4.4482216152605 : 1.0;
+  return unit == "lbf" ? mesh::pound_force : 1.0;
 }
 
 /// The stem of the deck in letters that a scene's name may have.
@@ -152,19 +153,45 @@ std::string name_of(const path& deck)
   return name;
 }
 
+mesh::DeckUnits units_of(const ImportArguments& arguments)
+{
+  const std::string usual = arguments.length_unit == "inch" ? "lbf" : "N";
+  return {.length = metres_of(arguments.length_unit),
+          .force = newtons_of(arguments.force_unit.empty() ? usual : arguments.force_unit)};
+}
+
+/// A scene, and beside it NAME.reduced.h5.
+void import_superelement(const ImportArguments& arguments)
+{
+  if (arguments.output.empty()) {
+    throw Error(
+        fmt::format("{}: say where to write with --output scene.toml; the reduced system is "
+                    "written beside it",
+                    arguments.deck));
+  }
+  const cases::ImportedSystem imported =
+      cases::imported_system(arguments.deck, units_of(arguments));
+  const std::string name = name_of(arguments.deck);
+  const std::string text = cases::imported_scene(imported, name);
+  scene::parse_scene(text, arguments.output, scene::Purpose::everything);
+  const path reduced = path(arguments.output).parent_path() / (name + ".reduced.h5");
+  mbs_export::write_reduced(reduced, imported.system);
+  files::write_text(arguments.output, text);
+  for (const std::string& note : imported.notes) report::tell_note(report::printable(note));
+  fmt::print("wrote {}\nwrote {}\n", reduced.string(), arguments.output);
+}
+
 void import_and_write(const ImportArguments& arguments)
 {
+  if (cases::is_superelement(arguments.deck)) return import_superelement(arguments);
   if (!mesh::is_deck(arguments.deck)) {
     throw Error(
-        fmt::format("{}: only a deck of another program ({}) is imported; other mesh files have no "
-                    "sections",
+        fmt::format("{}: only a deck of another program ({}) or a superelement of Nastran (.pch, "
+                    ".dmig, .op4) is imported; other mesh files have no sections",
                     arguments.deck, mesh::extensions_with_programs(mesh::is_deck)));
   }
-  const std::string usual = arguments.length_unit == "inch" ? "lbf" : "N";
-  const mesh::Declarations declared = mesh::declarations(
-      {.file = arguments.deck},
-      {.length = metres_of(arguments.length_unit),
-       .force = newtons_of(arguments.force_unit.empty() ? usual : arguments.force_unit)});
+  const mesh::Declarations declared =
+      mesh::declarations({.file = arguments.deck}, units_of(arguments));
   const path target = arguments.output.empty() ? path("scene.toml") : path(arguments.output);
   const path folder = std::filesystem::absolute(target).parent_path();
   const std::string text = cases::declared_scene(

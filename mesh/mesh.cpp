@@ -193,16 +193,22 @@ Group ring_group(Mesh& mesh, const RingOptions& ring)
   for (const Place& place : places) {
     const int node = place.nearest.node;
     if (!ring.z) check_only_one(mesh, ring, place.nearest, tolerance);
-    mesh.positions[node][0] = place.x;
-    mesh.positions[node][1] = place.y;
-    if (ring.z) mesh.positions[node][2] = *ring.z;
+    if (!mesh.matrices) {
+      mesh.positions[node][0] = place.x;
+      mesh.positions[node][1] = place.y;
+      if (ring.z) mesh.positions[node][2] = *ring.z;
+    }
     largest_move = std::max(largest_move, place.nearest.distance);
     group.nodes.push_back(node);
   }
   if (largest_move > round_off * ring.radius) {
     mesh.notes.push_back(
-        fmt::format("ring \"{}\": its nodes were moved onto the circle, by {:.2g} m at most",
-                    ring.name, largest_move));
+        mesh.matrices ? fmt::format("ring \"{}\": its nodes are {:.2g} m off the circle at most, "
+                                    "and stay where the matrices have them",
+                                    ring.name, largest_move)
+                      : fmt::format("ring \"{}\": its nodes were moved onto the circle, by {:.2g} "
+                                    "m at most",
+                                    ring.name, largest_move));
   }
   return group;
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -72,6 +73,8 @@ struct FaceNode {
   std::vector<double> weights;
 };
 
+struct NodalMatrices;
+
 /// A mesh of lines, surfaces and solids in space; the same on every rank.
 struct Mesh {
   std::vector<std::int64_t> node_numbers;        ///< [n] numbers of the mesh file
@@ -81,7 +84,9 @@ struct Mesh {
   std::vector<std::string> notes;  ///< for the user: what was changed or left out on reading
   Sectors sectors = {};
   std::vector<FaceNode> face_nodes = {};  ///< of rings on faces
-  std::string made_by = {};               ///< path of the library that made it; empty: this program
+  std::string made_by = {};  ///< path of the library that made it; empty: this program
+  /// Matrices of another program for the nodes; its elements are then the geometry alone.
+  std::shared_ptr<const NodalMatrices> matrices = {};
 
   int n_nodes() const { return static_cast<int>(positions.size()); }
 };
@@ -129,7 +134,8 @@ inline Vector unit(const Vector& a)
 
 /// Adds a group for each ring: its nodes at equal angles on a circle about the z axis, the first on
 /// the x axis, ordered by angle. Nodes that miss their place by less than a thousandth of the
-/// distance between two neighbours are moved there, with a note. In a sector the group has the
+/// distance between two neighbours are moved there, with a note, unless the mesh has matrices. In a
+/// sector the group has the
 /// nodes of the sector, including those of both cut edges.
 /// A ring on faces gets nodes of its own, each on the free face of the solids there or in the mean
 /// over a patch of it, 2 pi r / N long and `width` wide.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mesh/element_types.hpp"
+#include "mesh/nodal_matrices.hpp"
 
 namespace chladni::mesh {
 
@@ -106,6 +107,11 @@ void transfer_declarations(auto& archive, auto& declared)
   archive.each(declared.notes, [](auto& a, auto& note) { a(note); });
 }
 
+void transfer_matrices(auto& archive, auto& matrices)
+{
+  archive.all(matrices.n_components, matrices.K, matrices.M, matrices.C, matrices.H);
+}
+
 void require(bool holds, const char* what)
 {
   if (!holds) throw Error(fmt::format("the mesh that Gmsh made has {}", what));
@@ -158,6 +164,11 @@ void check_unpacked(const Mesh& mesh)
     check_indices(on_face.nodes, 0, mesh.positions.size(), "a face of nodes that are not there");
     require(on_face.nodes.size() == on_face.weights.size(), "a node on a face without weights");
   }
+  if (!mesh.matrices) return;
+  require(mesh.matrices->n_components.size() == mesh.positions.size(), "matrices of other nodes");
+  for (const auto* matrix : mesh.matrices->all())
+    for (const auto& [row, column, value] : *matrix)
+      check_indices({row, column}, 0, 6 * mesh.positions.size(), "an entry of no node");
 }
 
 }  // namespace
@@ -165,12 +176,21 @@ void check_unpacked(const Mesh& mesh)
 void pack(Packer& packer, const Mesh& mesh)
 {
   transfer_mesh(packer, mesh);
+  packer(bool(mesh.matrices));
+  if (mesh.matrices) transfer_matrices(packer, *mesh.matrices);
 }
 
 Mesh unpack_mesh(Unpacker& unpacker)
 {
   Mesh mesh;
   transfer_mesh(unpacker, mesh);
+  bool has_matrices = false;
+  unpacker(has_matrices);
+  if (has_matrices) {
+    NodalMatrices matrices;
+    transfer_matrices(unpacker, matrices);
+    mesh.matrices = std::make_shared<const NodalMatrices>(std::move(matrices));
+  }
   require(unpacker.at_end(), "more bytes than it says");
   check_unpacked(mesh);
   return mesh;
@@ -281,6 +301,10 @@ void transfer_options(auto& archive, auto& options)
   archive.each(options.solid_groups, [](auto& a, auto& name) { a(name); });
   archive.each(options.coupled_groups, [](auto& a, auto& name) { a(name); });
   archive(options.doubled_elements);
+  archive.optional(options.matrices, [](auto& a, auto& files) {
+    auto& [stiffness, mass, damping, structural, dofs, force_unit] = files;
+    a.all(stiffness, mass, damping, structural, dofs, force_unit);
+  });
 }
 
 void transfer_limits(auto& archive, auto& limits)

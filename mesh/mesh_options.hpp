@@ -256,6 +256,16 @@ struct Extrusion {
   int layers = 1;
 };
 
+inline constexpr double pound_force = 4.4482216152605;  // N
+
+/// Files with the matrices of another program for the nodes of a mesh file.
+struct MatrixFiles {
+  std::string stiffness, mass;
+  std::optional<std::string> damping = {}, structural_damping = {};
+  std::optional<std::string> dofs = {};  ///< the node and component of each row; some tell it
+  double force_unit = 1.0;               ///< N per unit of force of the files
+};
+
 /// The table [mesh] of a scene: exactly one generator or a file.
 struct MeshOptions {
   std::optional<AnnulusOptions> annulus = {};
@@ -281,6 +291,7 @@ struct MeshOptions {
   std::vector<std::string> solid_groups = {};  ///< groups of volumes with a section
   /// Groups of rigid couplings and links, whose nodes stay although no element has them.
   std::vector<std::string> coupled_groups = {};
+  std::optional<MatrixFiles> matrices = {};  ///< instead of sections
   int sectors = 1;  ///< number of equal sectors, of which the file holds one
   SectorSearch sector_search = SectorSearch::none;
   Coincident coincident_nodes = Coincident::refuse;

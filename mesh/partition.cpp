@@ -8,6 +8,7 @@
 #include "common/checked_count.hpp"
 #include "common/error.hpp"
 #include "mesh/element_types.hpp"
+#include "mesh/nodal_matrices.hpp"
 
 namespace chladni::mesh {
 
@@ -56,10 +57,38 @@ std::vector<idx_t> element_parts(const Mesh& mesh, int n_parts)
   return parts;
 }
 
+/// By the graph of K, of a mesh with matrices.
+std::vector<int> owners_by_matrices(const Mesh& mesh, int n_parts)
+{
+  auto n = static_cast<idx_t>(mesh.n_nodes());
+  std::vector<idx_t> parts(std::size_t(n), 0);
+  if (n_parts > 1) {
+    std::vector<std::vector<idx_t>> neighbours(static_cast<std::size_t>(n));
+    for_blocks(mesh.matrices->K, [&](std::span<const int> nodes, auto) {
+      if (nodes.size() < 2) return;
+      neighbours[std::size_t(nodes[0])].push_back(nodes[1]);
+      neighbours[std::size_t(nodes[1])].push_back(nodes[0]);
+    });
+    std::vector<idx_t> start{0}, adjacent;
+    for (const std::vector<idx_t>& of_node : neighbours) {
+      adjacent.insert(adjacent.end(), of_node.begin(), of_node.end());
+      start.push_back(checked_count(std::ssize(adjacent), "pairs of nodes", "use a coarser mesh"));
+    }
+    idx_t constraints = 1, cut = 0;
+    auto parts_wanted = static_cast<idx_t>(n_parts);
+    const int status =
+        METIS_PartGraphKway(&n, &constraints, start.data(), adjacent.data(), nullptr, nullptr,
+                            nullptr, &parts_wanted, nullptr, nullptr, nullptr, &cut, parts.data());
+    if (status != METIS_OK) throw Error(fmt::format("METIS_PartGraphKway failed with {}", status));
+  }
+  return {parts.begin(), parts.end()};
+}
+
 }  // namespace
 
 std::vector<int> node_owners(const Mesh& mesh, int n_parts)
 {
+  if (mesh.matrices) return owners_by_matrices(mesh, n_parts);
   const std::vector<idx_t> parts = element_parts(mesh, n_parts);
   std::vector<int> owners(mesh.n_nodes(), n_parts - 1);
   std::size_t element = 0;

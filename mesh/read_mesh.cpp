@@ -24,6 +24,7 @@
 #include "mesh/mesh_archive.hpp"
 #include "mesh/mesh_repair.hpp"
 #include "mesh/mesher.hpp"
+#include "mesh/nodal_matrices.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/sectors.hpp"
 
@@ -64,6 +65,7 @@ Mesh read_gmsh(const MeshOptions& options)
   try {
     Mesh made = kept_mesh(options, [&] { return made_by_mesher(options); });
     Mesh mesh = treat_coincident_nodes(std::move(made), options);
+    if (options.matrices) add_matrices(mesh, options);
     find_sector_edges(mesh, options.sectors);
     const std::string hint = hint_of_unit(mesh, options);
     if (!hint.empty()) mesh.notes.push_back(hint);
@@ -142,6 +144,7 @@ Mesh draft(const MeshOptions& options)
 Mesh generate(const MeshOptions& options)
 {
   Mesh mesh = draft(options);
+  if (mesh.matrices) return mesh;  // its elements are no model
   try {
     check_usable(mesh, options.file ? fmt::format("mesh file {}", *options.file) : "the mesh");
   } catch (const Error& error) {

@@ -13,6 +13,26 @@
 
 namespace chladni::report {
 
+std::string digest_of_mesh_files(const scene::Scene& scene)
+{
+  const mesh::MeshOptions& mesh = scene.mesh;
+  if (!mesh.file) return "";
+  std::vector<std::string> names{*mesh.file};
+  if (mesh.matrices) {
+    names.insert(names.end(), {mesh.matrices->stiffness, mesh.matrices->mass});
+    for (const auto* file :
+         {&mesh.matrices->damping, &mesh.matrices->structural_damping, &mesh.matrices->dofs})
+      if (*file) names.push_back(**file);
+  }
+  std::string all;
+  for (const std::string& file : names) {
+    const std::string digest = files::file_digest(file);
+    if (digest.empty()) return "";
+    all += digest;
+  }
+  return all;
+}
+
 namespace {
 
 /// The scenes that a file was made from, step by step; empty where a step has none.
@@ -53,9 +73,10 @@ std::vector<std::string> changed_mesh(const scene::Scene& scene,
                                       const mbs_export::Provenance& origin)
 {
   if (origin.mesh_file_digest.empty() || !scene.mesh.file) return {};
-  const std::string digest = files::file_digest(*scene.mesh.file);
+  const std::string digest = digest_of_mesh_files(scene);
   if (digest.empty() || digest == origin.mesh_file_digest) return {};
-  return {fmt::format("the mesh file {}", *scene.mesh.file)};
+  return {fmt::format("the mesh file {}{}", *scene.mesh.file,
+                      scene.mesh.matrices ? " or its matrices" : "")};
 }
 
 /// What has changed, and what to run again.

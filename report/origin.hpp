@@ -22,6 +22,10 @@ struct Read {
 /// What to do with a file that was made before the scene or its mesh file changed.
 enum class Stale { refuse, use };
 
+/// The digests of the bytes of the scene's mesh file and its matrices, one behind the other.
+/// @return empty without a mesh file, and if one of them cannot be read
+std::string digest_of_mesh_files(const scene::Scene& scene);
+
 /// Checks that a file belongs to the present scene, that is, that nothing it was made from has
 /// changed since: the parts of the scene that it and its predecessors depend on, and the mesh file
 /// if that exists. A file without a scene (from another program, or of a scene without a body) is

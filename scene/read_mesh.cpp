@@ -102,6 +102,36 @@ void check_only_for(const Table& mesh, const char* key, bool makes_sense, const 
   if (mesh.has(key) && !makes_sense) mesh.refuse(key, why);
 }
 
+/// The files of matrices, resolved against the folder of the scene, instead of sections.
+std::optional<mesh::MatrixFiles> read_matrix_files(const Table& mesh, const std::string& scene_path)
+{
+  if (!mesh.has("matrices")) {
+    check_only_for(mesh, "force_unit", false, "is of mesh.matrices");
+    return std::nullopt;
+  }
+  for (const char* key : {"sectors", "coincident_nodes", "merge_tolerance", "doubled_elements"})
+    check_only_for(mesh, key, false, "changes nodes or elements, and the matrices are as they are");
+  const Table table = mesh.table("matrices");
+  const auto file = [&](const char* key, const std::string& named) {
+    const auto path = std::filesystem::path(scene_path).parent_path() / named;
+    if (!std::filesystem::is_regular_file(path)) table.refuse(key, "is no file beside the scene");
+    return path.lexically_normal().string();
+  };
+  mesh::MatrixFiles files{.stiffness = file("stiffness", table.text("stiffness")),
+                          .mass = file("mass", table.text("mass"))};
+  if (table.has("damping")) files.damping = file("damping", table.text("damping"));
+  if (table.has("structural_damping"))
+    files.structural_damping = file("structural_damping", table.text("structural_damping"));
+  if (table.has("dofs")) files.dofs = file("dofs", table.text("dofs"));
+  const bool is_inch = mesh.has("length_unit") && mesh.text("length_unit") == "inch";
+  files.force_unit = is_inch ? mesh::pound_force : 1.0;
+  if (mesh.has("force_unit")) {
+    files.force_unit = mesh.choice<double>(
+        "force_unit", {{"N", 1.0}, {"mN", 1e-3}, {"kN", 1e3}, {"lbf", mesh::pound_force}});
+  }
+  return files;
+}
+
 /// m; nothing where it is chosen later
 std::optional<double> read_size_of_step(const Table& mesh, Size size)
 {
@@ -134,7 +164,9 @@ mesh::MeshOptions read_file(const Table& mesh, Size size, const std::string& sce
   if (mesh.has("parameters")) options.parameters = read_parameters(mesh);
   if (mesh.has("length_unit") || is_finished) options.length_unit = read_length_unit(mesh);
   if (mesh.has("groups")) options.groups = read_entity_groups(mesh);
+  options.matrices = read_matrix_files(mesh, scene_path);
   options.sectors = read_sectors(mesh);
+  if (options.matrices) options.coincident_nodes = mesh::Coincident::keep;
   if (mesh.has("coincident_nodes")) options.coincident_nodes = read_coincident_nodes(mesh);
   if (mesh.has("doubled_elements")) options.doubled_elements = read_doubled_elements(mesh);
   if (mesh.has("merge_tolerance")) options.merge_tolerance = mesh.number("merge_tolerance");
@@ -212,7 +244,7 @@ mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path)
   const bool is_file = mesh.only_one_of({"generator", "file"}) == "file";
   mesh::MeshOptions options =
       is_file ? read_file(mesh, size, scene_path) : read_generator(mesh, size);
-  if (options.file || options.annulus || options.hat_disc)
+  if ((options.file && !options.matrices) || options.annulus || options.hat_disc)
     options.sector_search = read_sector_search(root, mesh);
   refuse_sectors_of_faces(mesh, rings_of(options));
   if (std::ranges::count(rings_of(options), mesh::RingOn::face, &mesh::RingOptions::on) > 0)

@@ -183,6 +183,8 @@ std::vector<int> read_model_components(const Table& root, const Sections& sectio
 {
   if (!sections.solids.empty() && root.has("model"))
     root.refuse("model", "solids have the displacements x, y, z at each node and no other DOF");
+  if (root.has("model") && root.table("mesh").has("matrices"))
+    root.refuse("model", "the matrices tell the DOFs of each node");
   if (!root.has("model")) return {0, 1, 2, 3, 4, 5};
   std::vector<int> components = read_component_list(root.table("model"), "dofs");
   std::ranges::sort(components);
@@ -191,6 +193,11 @@ std::vector<int> read_model_components(const Table& root, const Sections& sectio
 
 Sections read_sections(const Table& root, const Scene& scene)
 {
+  if (scene.mesh.matrices) {
+    for (const char* key : {"section", "material"})
+      if (root.has(key)) root.refuse(key, "mesh.matrices stands in place of sections");
+    return {};
+  }
   const std::map<std::string, plate::Material> materials = read_materials(root);
   const std::vector<std::string> groups =
       scene.mesh.file ? group_names(scene) : surface_groups(scene.mesh);

@@ -70,7 +70,9 @@ bool is_lossy(const Section& section)
 /// Whether the model has dampers or loss factors.
 bool damps(const Scene& scene)
 {
-  return std::ranges::any_of(scene.sections, is_lossy<plate::ShellSection>) ||
+  const auto& matrices = scene.mesh.matrices;
+  return (matrices && (matrices->damping || matrices->structural_damping)) ||
+         std::ranges::any_of(scene.sections, is_lossy<plate::ShellSection>) ||
          std::ranges::any_of(scene.beams, is_lossy<plate::BeamSection>) ||
          std::ranges::any_of(scene.solids, is_lossy<plate::SolidSection>) ||
          std::ranges::any_of(scene.springs, [](const plate::Spring& spring) {
@@ -114,6 +116,40 @@ void refuse_beside_solids(const Table& root, const Scene& scene)
   }
 }
 
+/// What needs elements.
+void refuse_beside_matrices(const Table& root, const Scene& scene)
+{
+  if (!scene.mesh.matrices) return;
+  constexpr const char* needs_elements = "needs elements of our own; mesh.matrices has none";
+  if (scene.accuracy) root.refuse("accuracy", needs_elements);
+  if (scene.natural_modes && scene.natural_modes->mesh_errors)
+    root.table("modes").refuse("mesh_errors", needs_elements);
+  if (!root.has("reduce")) return;
+  for (const char* key : {"mesh_errors", "resultants", "stiffening"})
+    if (root.table("reduce").has(key)) root.table("reduce").refuse(key, needs_elements);
+}
+
+/// What is made of a reduced system.
+void read_what_follows(const Table& root, Scene& scene)
+{
+  scene.body = read_body(root, scene);
+  scene.response = read_response(root, scene);
+  scene.squeal = read_squeal(root, scene);
+  scene.radiation = read_radiation(root);
+  scene.sound = read_sound(root, scene);
+}
+
+/// A scene without a mesh: its reduced system is another program's.
+Scene read_imported(const Table& root, Scene scene)
+{
+  scene.has_mesh = false;
+  scene.interface_nodes = read_interface(root, scene);
+  read_what_follows(root, scene);
+  root.refuse_unknown_keys();
+  scene.notes = root.notes();
+  return scene;
+}
+
 /// The scene of the tables; `scene` holds text, path and, where they are known, the groups of the
 /// mesh file.
 Scene read_tables(const Table& root, Scene scene, Purpose purpose)
@@ -126,6 +162,8 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
     scene.notes = root.notes();
     return scene;
   }
+  if (!root.has("mesh") && root.has("body") && !root.has("section") && !root.has("reduce"))
+    return read_imported(root, std::move(scene));
   scene.accuracy = read_accuracy(root);
   scene.mesh = read_mesh(root, scene.path);
   const Sections sections = read_sections(root, scene);
@@ -162,11 +200,8 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
     scene.sylvester = read_sylvester(root);
   }
   refuse_beside_solids(root, scene);
-  scene.body = read_body(root, scene);
-  scene.response = read_response(root, scene);
-  scene.squeal = read_squeal(root, scene);
-  scene.radiation = read_radiation(root);
-  scene.sound = read_sound(root, scene);
+  refuse_beside_matrices(root, scene);
+  read_what_follows(root, scene);
   // Dampers and loss factors of the model are not lost when the body says nothing of damping.
   const bool said = root.has("body") && root.table("body").has("damping");
   if (!said && damps(scene)) scene.body.damping.type = mbs_export::Damping::Type::matrix;

@@ -66,6 +66,7 @@ struct Scene {
   /// With `accuracy`, an element size of 0 of a generator and a missing size factor of a file are
   /// chosen later.
   mesh::MeshOptions mesh;
+  bool has_mesh = true;                  ///< false for a reduced system of another program
   std::vector<std::string> file_groups;  ///< groups of the mesh file; empty before it is read
   /// DOF components of each node; the others are held at zero and not part of the model.
   std::vector<int> components = {0, 1, 2, 3, 4, 5};

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -91,6 +92,18 @@ enum class MatrixForm { rectangular = 2, symmetric = 6 };
 /// @param name  up to 8 letters
 /// @throws chladni::Error when an entry is not finite or above 1e99.
 std::string op4_matrix(const std::string& name, const Eigen::MatrixXd& A, MatrixForm form);
+
+/// A matrix of an OUTPUT4 file.
+struct Op4Matrix {
+  std::string name;  ///< in capitals
+  Eigen::MatrixXd A;
+};
+
+/// Reads real matrices of an OUTPUT4 file: formatted or binary (either byte order), dense or
+/// sparse, with or without BIGMAT.
+/// @param wanted  their names; others are passed over
+/// @throws chladni::Error naming the matrix, and line or byte, of what cannot be read.
+std::vector<Op4Matrix> read_op4(const std::string& bytes, const std::set<std::string>& wanted);
 
 /// Writes a body as the dictionary of Exudyn's ObjectFFRFreducedOrderInterface, in the HDF5 layout
 /// that its LoadDictFromHDF5 reads. Nodes are the attachment nodes, then those of the picture,

@@ -4,10 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <iterator>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "common/error.hpp"
@@ -108,6 +114,20 @@ std::string grid_cards(const ReducedSystem& reduced, const NastranNumbers& numbe
     text += fmt::format("GRID*   {:16}{:16}{:16.9E}{:16.9E}\n*       {:16.9E}{:16}{:>16}\n",
                         numbers.grids[std::size_t(node)], 0, x[0], x[1], x[2], 0,
                         components_of(reduced, node, Components::others));
+  }
+  return text;
+}
+
+/// The sets of attachment nodes, whose names stand in comments.
+std::string set_cards(const ReducedSystem& reduced, const NastranNumbers& numbers)
+{
+  std::string text = rule("SETS OF ATTACHMENT NODES");
+  for (std::size_t i = 0; i < reduced.sets.size(); ++i) {
+    const int number = static_cast<int>(i) + 1;
+    Fields fields{field(number)};
+    for (const int node : reduced.sets[i].nodes)
+      fields.push_back(field(numbers.grids[std::size_t(node)]));
+    text += fmt::format("$ SET {}: {}\n", number, reduced.sets[i].name) + card("SET1", fields);
   }
   return text;
 }
@@ -243,8 +263,8 @@ std::string superelement_file(const ReducedSystem& reduced, const NastranNumbers
   }
   return fmt::format("$ SUPERELEMENT {}: INCLUDE AT THE END, BEFORE ENDDATA\n$\n", number) +
          fmt::format("BEGIN SUPER{:8}\n$\n", number) + card("EXTRN", external) +
-         rule("ATTACHMENT NODES") + grid_cards(reduced, numbers) + rule("ANALYSIS SET") + sets +
-         spoint_card(reduced, numbers);
+         rule("ATTACHMENT NODES") + grid_cards(reduced, numbers) + set_cards(reduced, numbers) +
+         rule("ANALYSIS SET") + sets + spoint_card(reduced, numbers);
 }
 
 }  // namespace
@@ -273,7 +293,8 @@ std::string nastran_dmig(const ReducedSystem& reduced)
   const Ordered ordered = in_nastran_order(reduced, numbers);
   std::string text = "$ REDUCED SYSTEM IN SI UNITS. CASE CONTROL:\n$ K2GG = KRED\n$ M2GG = MRED\n";
   if (reduced.C.size() > 0) text += "$ B2GG = BRED\n";
-  text += rule("ATTACHMENT NODES") + grid_cards(reduced, numbers) + spoint_card(reduced, numbers);
+  text += rule("ATTACHMENT NODES") + grid_cards(reduced, numbers) + set_cards(reduced, numbers) +
+          spoint_card(reduced, numbers);
   text += rule("STIFFNESS") + dmig_matrix("KRED", reduced.K, ordered);
   text += rule("MASS") + dmig_matrix("MRED", reduced.M, ordered);
   if (reduced.C.size() > 0) text += rule("DAMPING") + dmig_matrix("BRED", reduced.C, ordered);
@@ -343,6 +364,290 @@ std::string op4_matrix(const std::string& name, const Eigen::MatrixXd& A, Matrix
   text += fmt::format("{:8}{:8}{:8}\n", A.cols() + 1, 1, 1);
   append_values(text, Eigen::VectorXd::Constant(1, std::sqrt(2.0)));
   return text;
+}
+
+namespace {
+
+/// What stands before the columns of a matrix.
+struct Op4Header {
+  std::string name;
+  std::int64_t columns, rows;  ///< rows are negative with BIGMAT
+  std::int64_t type;           ///< 1, 2 real, 3, 4 complex; single, double
+  int per_line = 5, width = 16;
+
+  int words() const { return type % 2 == 0 ? 2 : 1; }
+};
+
+/// Strings of values, which both kinds of files have.
+class Op4Reader {
+ public:
+  virtual ~Op4Reader() = default;
+  /// Nothing at the end of the file.
+  virtual std::optional<Op4Header> header() = 0;
+  /// The three numbers that begin a column: column, row (0 if sparse), number of words.
+  virtual std::array<std::int64_t, 3> column(const Op4Header& header) = 0;
+  /// n integers within a column.
+  virtual std::array<std::int64_t, 2> integers(int n) = 0;
+  virtual std::vector<double> values(const Op4Header& header, std::int64_t n) = 0;
+  virtual void end_column() = 0;
+  /// The number of values that n words of a dense column are.
+  virtual std::int64_t values_of_dense(const Op4Header& header, std::int64_t n) const = 0;
+  /// Words of the numbers that begin a string, within the words of its column.
+  virtual std::int64_t words_of_start(bool is_big) const = 0;
+  [[noreturn]] virtual void refuse(const std::string& why) const = 0;
+};
+
+class FormattedOp4 final : public Op4Reader {
+ public:
+  explicit FormattedOp4(const std::string& text) : text_(text) {}
+
+  std::optional<Op4Header> header() override
+  {
+    if (text_.find_first_not_of(" \r\n", at_) == std::string::npos) return std::nullopt;
+    const std::string line = next_line();
+    Op4Header header{.name = trimmed_name(line.substr(std::min<std::size_t>(32, line.size()), 8)),
+                     .columns = number(line, 0),
+                     .rows = number(line, 8),
+                     .type = number(line, 24)};
+    const std::size_t E = line.find_first_of("ED", 40), dot = line.find('.', 40);
+    if (E != std::string::npos && dot != std::string::npos && dot > E) {
+      const std::size_t comma = line.find(',', 40);
+      const std::size_t from = comma == std::string::npos || comma > E ? 40 : comma + 1;
+      header.per_line = static_cast<int>(whole(line.substr(from, E - from)));
+      header.width = static_cast<int>(whole(line.substr(E + 1, dot - E - 1)));
+    }
+    if (header.per_line < 1 || header.width < 1) refuse("its format cannot be read");
+    return header;
+  }
+  std::array<std::int64_t, 3> column(const Op4Header&) override
+  {
+    const std::string line = next_line();
+    return {number(line, 0), number(line, 8), number(line, 16)};
+  }
+  std::array<std::int64_t, 2> integers(int n) override
+  {
+    const std::string line = next_line();
+    if (n == 1) return {whole(line), 0};
+    return {number(line, 0), number(line, 8)};
+  }
+  std::vector<double> values(const Op4Header& header, std::int64_t n) override
+  {
+    std::vector<double> found;
+    while (std::ssize(found) < n) {
+      const std::string line = next_line();
+      for (int k = 0; k < header.per_line && std::ssize(found) < n; ++k) {
+        const auto begin = std::size_t(k) * std::size_t(header.width);
+        if (begin >= line.size()) refuse("a line of values is cut off");
+        std::string field = line.substr(begin, std::size_t(header.width));
+        std::ranges::replace(field, 'D', 'E');
+        char* end = nullptr;
+        found.push_back(std::strtod(field.c_str(), &end));
+        if (end == field.c_str() || !std::isfinite(found.back()))
+          refuse(fmt::format("\"{}\" is no number", field));
+      }
+    }
+    return found;
+  }
+  void end_column() override {}
+  std::int64_t values_of_dense(const Op4Header&, std::int64_t n) const override { return n; }
+  std::int64_t words_of_start(bool is_big) const override { return is_big ? 2 : 1; }
+  [[noreturn]] void refuse(const std::string& why) const override
+  {
+    throw Error(fmt::format("line {}: {}", line_, why));
+  }
+
+ private:
+  std::string next_line()
+  {
+    ++line_;
+    if (at_ >= text_.size()) refuse("the file ends within a matrix");
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    std::string line = text_.substr(at_, end - at_);
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    at_ = end + 1;
+    return line;
+  }
+  std::int64_t whole(const std::string& field) const
+  {
+    char* end = nullptr;
+    const long long value = std::strtoll(field.c_str(), &end, 10);
+    if (end == field.c_str()) refuse(fmt::format("\"{}\" is no whole number", field));
+    return value;
+  }
+  /// Of eight columns.
+  std::int64_t number(const std::string& line, std::size_t first) const
+  {
+    return whole(line.size() > first ? line.substr(first, 8) : "");
+  }
+  static std::string trimmed_name(std::string name)
+  {
+    std::erase(name, ' ');
+    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return name;
+  }
+
+  const std::string& text_;
+  std::size_t at_ = 0;
+  int line_ = 0;
+};
+
+/// Records of Fortran: 4 bytes before and behind each tell its length.
+class BinaryOp4 final : public Op4Reader {
+ public:
+  BinaryOp4(const std::string& bytes, bool is_swapped) : bytes_(bytes), is_swapped_(is_swapped) {}
+
+  std::optional<Op4Header> header() override
+  {
+    if (at_ >= bytes_.size()) return std::nullopt;
+    begin_record();
+    Op4Header header{};
+    header.columns = integer();
+    header.rows = integer();
+    integer();  // form
+    header.type = integer();
+    for (int k = 0; k < 8; ++k) {
+      const char c = take<char>();
+      if (c != ' ' && c != '\0')
+        header.name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    }
+    end_column();
+    return header;
+  }
+  std::array<std::int64_t, 3> column(const Op4Header&) override
+  {
+    begin_record();
+    const std::int64_t column = integer(), row = integer(), n = integer();
+    return {column, row, n};
+  }
+  std::array<std::int64_t, 2> integers(int n) override
+  {
+    const std::int64_t first = integer();
+    return {first, n > 1 ? integer() : 0};
+  }
+  std::vector<double> values(const Op4Header& header, std::int64_t n) override
+  {
+    if (n < 0 || std::size_t(n) > (bytes_.size() - at_) / 4)
+      refuse("the file ends within a matrix");
+    std::vector<double> found;
+    for (std::int64_t i = 0; i < n; ++i) {
+      found.push_back(header.words() == 2 ? take<double>() : double(take<float>()));
+      if (!std::isfinite(found.back())) refuse("an entry is not finite");
+    }
+    return found;
+  }
+  void end_column() override
+  {
+    if (record_end_ < at_) refuse("a record is shorter than what it holds");
+    at_ = record_end_;
+    if (take<std::int32_t>() != length_) refuse("a record ends otherwise than it begins");
+  }
+  std::int64_t values_of_dense(const Op4Header& header, std::int64_t n) const override
+  {
+    return n / header.words();
+  }
+  std::int64_t words_of_start(bool is_big) const override { return is_big ? 2 : 1; }
+  [[noreturn]] void refuse(const std::string& why) const override
+  {
+    throw Error(fmt::format("byte {}: {}", at_, why));
+  }
+
+ private:
+  template <typename T>
+  T take()
+  {
+    if (bytes_.size() - at_ < sizeof(T)) refuse("the file ends within a matrix");
+    std::array<char, sizeof(T)> raw{};
+    std::memcpy(raw.data(), bytes_.data() + at_, sizeof(T));
+    if (is_swapped_) std::ranges::reverse(raw);
+    at_ += sizeof(T);
+    return std::bit_cast<T>(raw);
+  }
+  std::int64_t integer() { return take<std::int32_t>(); }
+  void begin_record()
+  {
+    length_ = take<std::int32_t>();
+    if (length_ < 0 || std::size_t(length_) > bytes_.size() - at_)
+      refuse("a record is longer than the file");
+    record_end_ = at_ + std::size_t(length_);
+  }
+
+  const std::string& bytes_;
+  bool is_swapped_;
+  std::size_t at_ = 0, record_end_ = 0;
+  std::int32_t length_ = 0;
+};
+
+std::unique_ptr<Op4Reader> op4_reader(const std::string& bytes)
+{
+  constexpr std::int32_t header = 24;  // bytes of the record that begins a matrix
+  std::int32_t first = 0;
+  if (bytes.size() >= sizeof(first)) std::memcpy(&first, bytes.data(), sizeof(first));
+  if (first == header) return std::make_unique<BinaryOp4>(bytes, false);
+  if (first == header << 24) return std::make_unique<BinaryOp4>(bytes, true);
+  return std::make_unique<FormattedOp4>(bytes);
+}
+
+/// Adds a string of values to a column; a matrix that nobody wants has no rows.
+void put(Op4Reader& reader, MatrixXd& A, Index row, Index column, const std::vector<double>& values)
+{
+  if (A.size() == 0) return;
+  if (row < 0 || column < 0 || column >= A.cols() || row + std::ssize(values) > A.rows())
+    reader.refuse("an entry is outside of the matrix");
+  A.col(column).segment(row, std::ssize(values)) =
+      Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+}
+
+/// The strings of a sparse column. The number that begins one is row + 65536 (words + 1), or there
+/// are two: words + 1, and the row.
+void read_strings(Op4Reader& reader, const Op4Header& header, Index column, std::int64_t n_words,
+                  MatrixXd& A)
+{
+  constexpr std::int64_t largest = 65535;
+  const bool is_big = header.rows < 0 || header.rows > largest;
+  while (n_words > 0) {
+    const auto [first, second] = reader.integers(is_big ? 2 : 1);
+    const std::int64_t words = is_big ? first - 1 : first / (largest + 1) - 1;
+    const std::int64_t row = is_big ? second : first % (largest + 1);
+    if (words < 1) reader.refuse("a string of values is empty");
+    put(reader, A, row - 1, column, reader.values(header, words / header.words()));
+    n_words -= words + reader.words_of_start(is_big);
+  }
+}
+
+MatrixXd read_matrix(Op4Reader& reader, const Op4Header& header, bool is_wanted)
+{
+  constexpr std::int64_t most = 50'000;
+  const std::int64_t rows = std::abs(header.rows);
+  if (is_wanted && (rows > most || header.columns > most || header.columns < 1))
+    reader.refuse(fmt::format("{} is {} x {}", header.name, rows, header.columns));
+  if (is_wanted && header.type > 2)
+    reader.refuse(header.name + " is complex; real stiffness, mass and damping can be read");
+  MatrixXd A = is_wanted ? MatrixXd::Zero(rows, header.columns) : MatrixXd();
+  while (true) {
+    const auto [column, row, n] = reader.column(header);
+    const bool is_end = column > header.columns;
+    if (column < 1 || n < 0) reader.refuse("no column begins here");
+    if (row == 0 && !is_end)
+      read_strings(reader, header, column - 1, n, A);
+    else if (const auto values = reader.values(header, reader.values_of_dense(header, n)); !is_end)
+      put(reader, A, row - 1, column - 1, values);
+    reader.end_column();
+    if (is_end) return A;
+  }
+}
+
+}  // namespace
+
+std::vector<Op4Matrix> read_op4(const std::string& bytes, const std::set<std::string>& wanted)
+{
+  const std::unique_ptr<Op4Reader> reader = op4_reader(bytes);
+  std::vector<Op4Matrix> found;
+  while (const std::optional<Op4Header> header = reader->header()) {
+    const bool is_wanted = wanted.contains(header->name);
+    MatrixXd A = read_matrix(*reader, *header, is_wanted);
+    if (is_wanted) found.push_back({.name = header->name, .A = std::move(A)});
+  }
+  return found;
 }
 
 }  // namespace chladni::mbs_export::formats

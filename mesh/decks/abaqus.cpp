@@ -39,6 +39,21 @@ const std::set<std::string>& keywords_without_effect()
   return all;
 }
 
+/// What is known, and cannot be a part of a scene.
+constexpr std::pair<const char*, const char*> keywords_refused[] = {
+    {"TIE",
+     "ties surfaces whose nodes need not meet; give both common nodes, or take the matrices "
+     "of the program (mesh.matrices)"},
+    {"CONTACT PAIR", "is a contact, and a scene is linear; take it out or join the nodes"},
+    {"CONTACT", "is a contact, and a scene is linear; take it out or join the nodes"},
+    {"EQUATION", "is an equation of its own; a scene has rigid couplings, links and averages"},
+    {"SHELL GENERAL SECTION",
+     "has no thickness and material; take *SHELL SECTION, or the matrices "
+     "of the program (mesh.matrices)"},
+    {"BEAM GENERAL SECTION", "is not known; take *BEAM SECTION with RECT, CIRC or PIPE"},
+    {"MASS", "is not known here; write the mass into the scene as [[mass]]"},
+    {"SPRING", "is not known here; write the spring into the scene as [[spring]]"}};
+
 const FileElement& type_of_elements(const Keyword& keyword)
 {
   const std::string& name = keyword.parameter("TYPE");
@@ -134,9 +149,9 @@ class AbaqusReader {
         {"INSTANCE", &AbaqusReader::instance},
         {"BOUNDARY", &AbaqusReader::boundary}};
     // Read elsewhere, or nothing to a mesh.
-    static const std::set<std::string> known{"HEADING",  "NSET",        "ELSET",    "MATERIAL",
-                                             "ELASTIC",  "DENSITY",     "COUPLING", "KINEMATIC",
-                                             "PREPRINT", "DISTRIBUTING"};
+    static const std::set<std::string> known{"HEADING",  "NSET",       "ELSET",        "MATERIAL",
+                                             "ELASTIC",  "DENSITY",    "COUPLING",     "KINEMATIC",
+                                             "PREPRINT", "RIGID BODY", "DISTRIBUTING", "MPC"};
     const auto reader = readers.find(keyword.name);
     if (reader != readers.end()) return (this->*reader->second)(keyword);
     if (known.contains(keyword.name) || section_keywords().contains(keyword.name)) return;
@@ -146,6 +161,8 @@ class AbaqusReader {
       ++left_out_[keyword.name];
       return;
     }
+    for (const auto& [name, why] : keywords_refused)
+      if (keyword.name == name) keyword.refuse(why);
     keyword.refuse("this keyword is not known; take it out if the model is the same without it");
   }
 
@@ -322,7 +339,109 @@ class AbaqusReader {
     for (std::size_t i = 0; i < model.size(); ++i)
       if (model[i].name == "COUPLING")
         coupling(model[i], i + 1 < model.size() ? &model[i + 1] : nullptr);
+    for (const Keyword& keyword : model) {
+      if (keyword.name == "RIGID BODY") rigid_body(keyword);
+      if (keyword.name == "MPC") constraints(keyword);
+    }
     add_leaders(deck_);
+  }
+
+  /// Nodes that follow a reference as a rigid body; what names the same group and reference again
+  /// adds to it.
+  void follow(const Keyword& keyword, const std::string& group, std::int64_t reference,
+              std::vector<std::int64_t> nodes)
+  {
+    std::erase(nodes, reference);
+    if (nodes.empty()) keyword.refuse("has no nodes that follow");
+    std::vector<std::int64_t>& all = deck_.groups[std::size_t(group_index(deck_, group, 0))].nodes;
+    all.insert(all.end(), nodes.begin(), nodes.end());
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    if (std::ranges::find(deck_.couplings, group, &DeckCoupling::group) != deck_.couplings.end())
+      return;
+    deck_.couplings.push_back({.entry = fmt::format("{}: *{}", keyword.place, keyword.name),
+                               .reference = reference,
+                               .group = group,
+                               .averages = false});
+  }
+
+  std::int64_t only_node(const Keyword& keyword, const KeywordRow& row, std::string_view name) const
+  {
+    const std::vector<std::int64_t> nodes = abaqus_nodes(keyword, row, name, sets_);
+    if (nodes.size() != 1)
+      keyword.refuse(row, fmt::format("\"{}\" is {} nodes instead of one", name, nodes.size()));
+    return nodes.front();
+  }
+
+  /// Nodes of TIE NSET, of PIN NSET (of solids, which do not turn), and of the elements of ELSET.
+  void rigid_body(const Keyword& keyword)
+  {
+    keyword.expect_only({"REF NODE", "TIE NSET", "PIN NSET", "ELSET", "POSITION"});
+    if (keyword.has("POSITION") && keyword.parameter("POSITION") != "INPUT")
+      keyword.refuse("moves its reference node to the centre of mass; take POSITION = INPUT");
+    const KeywordRow row{keyword.place, {}};
+    const std::int64_t reference = only_node(keyword, row, keyword.parameter("REF NODE"));
+    std::vector<std::int64_t> nodes;
+    const auto add = [&](const std::vector<std::int64_t>& more) {
+      std::ranges::copy_if(more, std::back_inserter(nodes), [](std::int64_t n) { return n != 0; });
+    };
+    if (keyword.has("TIE NSET"))
+      add(abaqus_nodes(keyword, row, keyword.parameter("TIE NSET"), sets_));
+    if (keyword.has("PIN NSET")) {
+      add(abaqus_nodes(keyword, row, keyword.parameter("PIN NSET"), sets_));
+      if (have_rotations(deck_, nodes))
+        keyword.refuse("PIN NSET leaves rotations of nodes of shells or beams free; take TIE NSET");
+    }
+    if (keyword.has("ELSET")) {
+      const auto set = sets_.elements.find(keyword.parameter("ELSET"));
+      if (set == sets_.elements.end())
+        keyword.refuse(fmt::format("there is no element set \"{}\"", keyword.parameter("ELSET")));
+      for (const std::int64_t number : set->second)
+        if (const auto found = place_of_.find(number); found != place_of_.end())
+          add(deck_.elements[found->second].nodes);
+    }
+    follow(keyword, fmt::format("rigid_body_{}", reference), reference, std::move(nodes));
+  }
+
+  /// BEAM: the first node, or each of the set, follows the second one.
+  void constraints(const Keyword& keyword)
+  {
+    keyword.expect_only({});
+    for (const KeywordRow& row : keyword.rows) {
+      const std::string& type = row.fields.front();
+      if (type != "BEAM" && type != "TIE") {
+        keyword.refuse(row,
+                       fmt::format("the type {} is not known; BEAM and TIE, which join rigidly, "
+                                   "are",
+                                   type));
+      }
+      if (row.fields.size() != 3 || row.fields[1].empty() || row.fields[2].empty())
+        keyword.refuse(row, "must be the type, the node that follows or a set, and one node");
+      const std::int64_t leader = only_node(keyword, row, row.fields[2]);
+      const std::vector<std::int64_t> nodes = abaqus_nodes(keyword, row, row.fields[1], sets_);
+      if (type == "TIE") check_together(keyword, row, nodes, leader);
+      follow(keyword, fmt::format("mpc_{}", leader), leader, nodes);
+    }
+  }
+
+  /// Equal motions are rigid where the nodes are at one place.
+  void check_together(const Keyword& keyword, const KeywordRow& row,
+                      const std::vector<std::int64_t>& nodes, std::int64_t leader) const
+  {
+    constexpr double same_place = 1e-6;
+    const auto at = deck_.nodes.find(leader);
+    for (const std::int64_t node : nodes) {
+      const auto other = deck_.nodes.find(node);
+      if (at == deck_.nodes.end() || other == deck_.nodes.end()) {
+        keyword.refuse(row,
+                       fmt::format("there is no node {}", at == deck_.nodes.end() ? leader : node));
+      }
+      if (norm(minus(at->second, other->second)) <= same_place * norm(at->second)) continue;
+      keyword.refuse(row,
+                     fmt::format("its nodes {} and {} are apart, where equal displacements and "
+                                 "rotations are no rigid link; take BEAM",
+                                 node, leader));
+    }
   }
 
   void coupling(const Keyword& keyword, const Keyword* kind)

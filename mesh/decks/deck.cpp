@@ -57,6 +57,23 @@ std::vector<int> nodes_of(const DeckElement& element, const NodeIndex& index)
   return nodes;
 }
 
+/// Of a surface without its inner node, which our own elements have alone.
+void take_corners(DeckElement& element)
+{
+  if (!is_surface(element.shape) || std::ranges::count(element.nodes, 0) == 0) return;
+  const ElementBlock block{.shape = element.shape,
+                           .order = element.order,
+                           .nodes_per_element = static_cast<int>(element.nodes.size()),
+                           .numbers = {},
+                           .nodes = {},
+                           .group = {}};
+  std::vector<std::int64_t> corners;
+  for (const int place : corner_places(block)) corners.push_back(element.nodes[std::size_t(place)]);
+  if (element.shape == Shape::quadrilateral) std::swap(corners[2], corners[3]);  // by rows
+  element.nodes = std::move(corners);
+  element.order = 1;
+}
+
 void add_element(Mesh& mesh, const DeckElement& element, const std::vector<int>& nodes)
 {
   ElementBlock& block = block_of(mesh, element);
@@ -530,23 +547,25 @@ Mesh mesh_of(Deck deck, const MeshOptions& options)
   if (content == Content::solids) {
     for (const DeckElement& element : deck.elements)
       if (is_solid(element.shape)) check_solid(deck, element);
-    raise_linear_solids(deck);
-    refuse_two_orders(deck);
+    if (!options.matrices) raise_linear_solids(deck);
+    if (!options.matrices) refuse_two_orders(deck);
   }
   Mesh mesh;
   const NodeIndex index = add_nodes(mesh, deck);
+  if (options.matrices) std::ranges::for_each(deck.elements, take_corners);
   for (const DeckGroup& group : deck.groups) {
     mesh.groups.push_back(
         {.name = group.name, .dimension = group.is_of_faces ? 2 : group.dimension, .nodes = {}});
   }
   add_elements(mesh, deck, index, content, options);
   add_groups_of_nodes(mesh, deck, index);
-  if (mesh.blocks.empty()) {
+  if (mesh.blocks.empty() && !options.matrices) {
     throw Error(
         "it has neither solids nor shells, nor beams of the group of a beam section; see "
         "docs/how-to/meshes.md for what can be read");
   }
   mesh.notes.insert(mesh.notes.begin(), deck.notes.begin(), deck.notes.end());
+  if (options.matrices) return mesh;  // its nodes are those of the matrices
   treat_doubled_elements(mesh, deck, options);
   add_inner_nodes(mesh);
   drop_unused_nodes(mesh, options.coupled_groups);

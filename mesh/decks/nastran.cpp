@@ -25,6 +25,34 @@ constexpr const char* no_offset =
 constexpr const char* no_own_thickness =
     "a thickness of its own; a scene has it in the section, as a table or a formula";
 
+constexpr const char* no_laminate =
+    "is a laminate, and a scene's shells are of one isotropic material; take a PSHELL, or the "
+    "matrices of the program (mesh.matrices)";
+constexpr const char* not_isotropic =
+    "is not isotropic, as a scene's materials are; take a MAT1, or the matrices of the program "
+    "(mesh.matrices)";
+
+/// What is known, and cannot be a part of a scene.
+constexpr std::pair<const char*, const char*> refused_by_name[] = {
+    {"PCOMP", no_laminate},
+    {"PCOMPG", no_laminate},
+    {"MAT2", not_isotropic},
+    {"MAT3", not_isotropic},
+    {"MAT8", not_isotropic},
+    {"MAT9", not_isotropic},
+    {"MAT10", "is a fluid, and a scene's bodies are solid; take the fluid out"},
+    {"CBUSH", "is a spring of six components; write it into the scene as [[spring]]"},
+    {"CROD", "is a rod without bending; a CBAR with small I1 and I2 stands for it"},
+    {"CONROD", "is a rod without bending; a CBAR with small I1 and I2 stands for it"},
+    {"CELAS3", "joins scalar points, and a scene has none; take CELAS1 or CELAS2 between grids"},
+    {"CELAS4", "joins scalar points, and a scene has none; take CELAS1 or CELAS2 between grids"},
+    {"DMIG",
+     "is a matrix beside the elements; `chladni import` reads a superelement of DMIG alone "
+     "from a .pch or .dmig"},
+    {"RBE1", "is no plain rigid body; take RBE2"},
+    {"CGAP", "is a contact, and a scene is linear; take it out or join the nodes"},
+    {"SPCD", "prescribes a displacement; a scene's support holds at zero only"}};
+
 /// Of what becomes of the deck, by card.
 class NastranReader {
  public:
@@ -74,12 +102,18 @@ class NastranReader {
     for (const char* name : {"CQUAD4", "CTRIA3"}) all.emplace(name, &NastranReader::flat_shell);
     for (const char* name : {"CQUAD8", "CTRIA6"}) all.emplace(name, &NastranReader::curved_shell);
     for (const char* name : {"CBAR", "CBEAM"}) all.emplace(name, &NastranReader::beam);
+    for (const char* name : {"ASET", "ASET1"}) all.emplace(name, &NastranReader::analysis_set);
     for (const char* name :
-         {"CORD2R", "CORD2C", "CORD2S", "MAT1", "PSHELL", "PBAR", "PBARL", "PBEAM", "PSOLID",
-          "PELAS", "CASE", "GRDSET", "SPCADD", "MPC", "MPCADD"})
+         {"CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "MAT1", "PSHELL", "PBAR",
+          "PBARL", "PBEAM", "PSOLID", "PELAS", "CASE", "GRDSET", "SPCADD", "MPC", "MPCADD"})
       all.emplace(name, [](NastranReader&, const Card&) {});
-    for (const char* name : {"EIGR", "EIGRL", "FORCE", "MOMENT", "PLOAD", "PLOAD2", "PLOAD4",
-                             "GRAV", "LOAD", "TEMP", "TEMPD"})
+    for (const char* name :
+         {"EIGR",    "EIGRL",   "EIGB",    "EIGC",  "EIGP",   "FORCE",   "MOMENT",  "PLOAD",
+          "PLOAD1",  "PLOAD2",  "PLOAD4",  "GRAV",  "RFORCE", "LOAD",    "DLOAD",   "RLOAD1",
+          "RLOAD2",  "TLOAD1",  "TLOAD2",  "DAREA", "DELAY",  "DPHASE",  "TABLED1", "TABLED2",
+          "TABLED3", "TABLED4", "TABDMP1", "FREQ",  "FREQ1",  "FREQ2",   "FREQ3",   "FREQ4",
+          "TSTEP",   "NLPARM",  "TEMP",    "TEMPD", "SUPORT", "SUPORT1", "PLOTEL",  "SPOINT",
+          "QSET",    "QSET1",   "OMIT",    "OMIT1"})
       all.emplace(name,
                   [](NastranReader& reader, const Card& card) { ++reader.left_out_[card.name()]; });
     return all;
@@ -89,6 +123,8 @@ class NastranReader {
   {
     for (const char* name : {"CPYRAM", "CHEXA8", "CHEXA20"})
       if (card.name() == name) card.refuse(no_such_solid);
+    for (const auto& [name, why] : refused_by_name)
+      if (card.name() == name) card.refuse(why);
     card.refuse("this card is not known; take it out if the model is the same without it");
   }
 
@@ -258,14 +294,18 @@ class NastranReader {
     add_to(fmt::format("set_{}", card.integer(1, "SID")), listed_nodes(card, 2, deck_));
   }
 
+  /// WTMASS is a factor of the masses that are declared.
   void parameter(const Card& card)
   {
-    if (card.field(1) == "WTMASS" && card.real(2, "WTMASS") != 1.0) {
-      card.refuse(
-          "densities stand in another unit than forces and lengths; scale them in the deck, and "
-          "take this card out");
-    }
-    ++left_out_[card.name()];
+    if (card.field(1) != "WTMASS") ++left_out_[card.name()];
+  }
+
+  /// The nodes that the deck keeps in a reduction: what `interface.nodes` may name.
+  void analysis_set(const Card& card)
+  {
+    if (card.name() == "ASET1") return add_to("aset", listed_nodes(card, 2, deck_));
+    for (std::size_t i = 1; i <= card.n_fields(); i += 2)
+      if (card.has(i)) add_to("aset", {card.integer(i, "number of a node")});
   }
 
   std::span<const Card> cards_;
@@ -287,9 +327,19 @@ namespace {
 // Of DeckSystem::kind.
 constexpr char rectangular = 'R', cylindrical = 'C', spherical = 'S';
 
+/// Three points, by coordinates (CORD2R, C, S) or as grids (CORD1R, C, S, two to a card).
+struct SystemOfCard {
+  const Card* card;
+  std::size_t first;  ///< field of its number
+
+  bool is_by_grids() const { return card->name().starts_with("CORD1"); }
+};
+
 bool is_system(const Card& card)
 {
-  return card.name() == "CORD2R" || card.name() == "CORD2C" || card.name() == "CORD2S";
+  const std::string& name = card.name();
+  return name.size() == 6 && (name.starts_with("CORD1") || name.starts_with("CORD2")) &&
+         (name[5] == rectangular || name[5] == cylindrical || name[5] == spherical);
 }
 
 /// Systems that are found one after the other, each after the one that it refers to.
@@ -299,16 +349,18 @@ class Finder {
   {
     found_[0] = {.origin = {}, .axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, .kind = rectangular};
     for (const Card& card : cards) {
+      if (card.name() == "GRID") grids_.emplace(card.integer(1, "number of a node"), &card);
       if (!is_system(card)) continue;
-      if (!cards_.emplace(card.integer(1, "CID"), &card).second) card.refuse("is there twice");
+      add({.card = &card, .first = 1});
+      if (card.name().starts_with("CORD1") && card.has(5)) add({.card = &card, .first = 5});
     }
   }
 
   DeckSystems all()
   {
-    for (const auto& [number, card] : cards_) {
-      if (number == 0) card->refuse("0 is the basic system");
-      find(number, *card);
+    for (const auto& [number, of_card] : cards_) {
+      if (number == 0) of_card.card->refuse("0 is the basic system");
+      find(number, *of_card.card);
     }
     return found_;
   }
@@ -320,27 +372,54 @@ class Finder {
     const auto card = cards_.find(number);
     if (card == cards_.end())
       asking.refuse(fmt::format("there is no coordinate system {}", number));
-    if (!under_way_.insert(number).second) card->second->refuse("refers to itself");
-    const std::int64_t reference = card->second->integer_or(2, "RID", 0);
-    find(reference, *card->second);
-    found_[number] = made(*card->second, found_[reference]);
+    const SystemOfCard& asked = card->second;
+    if (!under_way_.insert(number).second) asked.card->refuse("refers to itself");
+    std::array<Vector, 3> points{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      points[i] = asked.is_by_grids() ? grid(*asked.card, asked.first + 1 + i)
+                                      : point(*asked.card, 3 + 3 * i);
+    }
+    found_[number] = made(*asked.card, points);
+  }
+
+  void add(const SystemOfCard& of_card)
+  {
+    of_card.card->expect_no_more_than(of_card.is_by_grids() ? 8 : 11);
+    const std::int64_t number = of_card.card->integer(of_card.first, "CID");
+    if (!cards_.emplace(number, of_card).second)
+      of_card.card->refuse(fmt::format("there are two systems {}", number));
+  }
+
+  Vector point(const Card& card, std::size_t first)
+  {
+    const std::int64_t reference = card.integer_or(2, "RID", 0);
+    find(reference, card);
+    return basic_position(found_[reference], card.vector_or_zero(first, "a point"));
+  }
+
+  /// Its own system may be one that is still to be found.
+  Vector grid(const Card& card, std::size_t field)
+  {
+    const auto found = grids_.find(card.integer(field, "number of a node"));
+    if (found == grids_.end()) card.refuse(fmt::format("there is no GRID {}", card.field(field)));
+    const std::int64_t system = found->second->integer_or(2, "CP", 0);
+    find(system, *found->second);
+    return basic_position(found_[system], found->second->vector_or_zero(3, "a coordinate"));
   }
 
   /// A, the origin; B on the z axis; C in the x-z plane.
-  static DeckSystem made(const Card& card, const DeckSystem& reference)
+  static DeckSystem made(const Card& card, const std::array<Vector, 3>& points)
   {
-    card.expect_no_more_than(11);
-    const auto point = [&](std::size_t first) {
-      return basic_position(reference, card.vector_or_zero(first, "a point"));
-    };
-    const Vector A = point(3), z = minus(point(6), A), in_plane = minus(point(9), A);
+    const Vector& A = points[0];
+    const Vector z = minus(points[1], A), in_plane = minus(points[2], A);
     const Vector y = cross(z, in_plane);
     if (!(norm(y) > 1e-9 * norm(z) * norm(in_plane)))
       card.refuse("its three points are on one line");
     return {.origin = A, .axes = {unit(cross(y, z)), unit(y), unit(z)}, .kind = card.name().back()};
   }
 
-  std::map<std::int64_t, const Card*> cards_;
+  std::map<std::int64_t, SystemOfCard> cards_;
+  std::unordered_map<std::int64_t, const Card*> grids_;
   std::set<std::int64_t> under_way_;
   DeckSystems found_;
 };
@@ -417,8 +496,9 @@ RigidElement rbe2(const Card& card, const Deck& deck)
 RigidElement rbe3(const Card& card)
 {
   card.expect_blank(2, 2, "this field of RBE3 is blank");
-  if (card.components(4).size() != 6)
-    card.refuse("averages not all components 123456 of its reference node");
+  const std::vector<int> moved = card.components(4);
+  if (moved.size() != 6 && moved != std::vector<int>{0, 1, 2})
+    card.refuse("averages neither the components 123456 nor 123 of its reference node");
   if (card.components(6) != std::vector<int>{0, 1, 2})
     card.refuse("averages other components than 123 of its nodes; a scene's coupling these alone");
   RigidElement element{.group = name_of_rigid("rbe3", card),

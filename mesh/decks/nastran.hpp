@@ -36,7 +36,8 @@ struct DeckSystem {
 /// Coordinate systems by number; 0 is the basic one.
 using DeckSystems = std::map<std::int64_t, DeckSystem>;
 
-/// Reads CORD2R, CORD2C and CORD2S, which may refer to each other in any order.
+/// Reads CORD1R, CORD1C, CORD1S by their grids, and CORD2R, CORD2C and CORD2S, which may refer to
+/// each other in any order.
 /// @throws chladni::Error naming a card whose axes are degenerate or whose reference is missing.
 DeckSystems nastran_systems(std::span<const Card> cards);
 
@@ -104,6 +105,8 @@ struct RigidElement {
   const Card* card;  ///< the first one of it
 
   bool averages() const { return card->name() == "RBE3"; }
+  /// An average of displacements alone, which leaves the rotations of its reference node free.
+  bool is_of_displacements() const { return averages() && card->components(4).size() == 3; }
 };
 
 /// Reads RBE2, RBE3, RBAR and the equations (MPC) of the chosen set, of which six of two terms each

@@ -200,6 +200,10 @@ class CaseControl {
   {
     const std::string text = capitals(trimmed(line.text.substr(0, line.text.find('$'))));
     if (text == "CEND") has_end_ = true;
+    if (const auto words = cut_at_commas(text); words.size() > 2 && words[0] == "PARAM") {
+      parameters_.emplace_back("PARAM", line.place);
+      parameters_.back().append({words[1], words[2]}, 2);
+    }
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) return;
     const std::string word = trimmed(std::string_view(text).substr(0, equals));
@@ -213,7 +217,7 @@ class CaseControl {
 
   std::vector<Card> cards() const
   {
-    std::vector<Card> all;
+    std::vector<Card> all = parameters_;
     for (const char* word : {"SPC", "MPC"}) {
       const auto found = chosen_.find(word);
       if (found != chosen_.end()) all.push_back(found->second);
@@ -231,6 +235,7 @@ class CaseControl {
   }
 
   std::map<std::string, Card> chosen_;
+  std::vector<Card> parameters_;
   bool has_end_ = false;
 };
 

@@ -62,7 +62,7 @@ class Card {
 /// present) to ENDDATA. A continuation follows its entry, or the line that ends with its mark.
 /// Blank fields of a GRID have the values of GRDSET. What case control chooses comes first: cards
 /// CASE with the fields SPC or MPC and the number of the set, or without a number where a case
-/// control chooses none.
+/// control chooses none. Its PARAM are cards too.
 /// @throws chladni::Error naming a line that is no entry, or that cannot be included.
 std::vector<Card> nastran_cards(const std::string& text,
                                 const ReadIncluded& read = refuse_included);

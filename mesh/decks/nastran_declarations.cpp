@@ -66,6 +66,20 @@ DeclaredMaterial material(const Card& card, const DeckUnits& units, std::vector<
           .density = card.real_or(5, "RHO", 0.0) * units.density()};
 }
 
+/// WTMASS: by what masses and densities of the deck are multiplied.
+double mass_factor(std::span<const Card> cards)
+{
+  const Card* said = nullptr;
+  for (const Card& card : cards) {
+    if (card.name() != "PARAM" || card.field(1) != "WTMASS") continue;
+    if (!(card.real(2, "WTMASS") > 0.0)) card.refuse("must be a positive factor");
+    if (said != nullptr && said->real(2, "WTMASS") != card.real(2, "WTMASS"))
+      card.refuse(fmt::format("{} says another factor", said->place()));
+    said = &card;
+  }
+  return said == nullptr ? 1.0 : said->real(2, "WTMASS");
+}
+
 void expect_no_mass(const Card& card, std::size_t i)
 {
   if (card.real_or(i, "NSM", 0.0) != 0.0)
@@ -93,6 +107,12 @@ class NastranDeclarer {
     }
     materials();
     declare_couplings(deck_, units_, holders_, all_);
+    for (const RigidElement& element : rigid_elements(cards_, deck_)) {
+      if (!element.is_of_displacements()) continue;
+      all_.notes.push_back(fmt::format(
+          "{} {}: REFC is 123; in the scene the rotations of node {} follow the mean too",
+          element.card->place(), element.card->name(), element.reference));
+    }
     supports();
     declare_points(cards_, deck_, units_, holders_, all_);
     for (std::size_t g = 0; g < deck_.groups.size(); ++g) check_has_section(g);
@@ -119,7 +139,8 @@ class NastranDeclarer {
   {
     for (const Card& card : cards_) {
       if (card.name() != "MAT1") continue;
-      const DeclaredMaterial found = material(card, units_, all_.notes);
+      DeclaredMaterial found = material(card, units_, all_.notes);
+      found.density *= mass_factor(cards_);
       if (found.density > 0.0) all_.materials.push_back(found);
       if (all_.uses(found.name) && !(found.density > 0.0)) {
         card.refuse(
@@ -384,6 +405,7 @@ class PointDeclarer {
         in_own_axes_.insert(card.integer(1, "ID"));
       if (card.name() == "PELAS") add_properties(card);
     }
+    mass_factor_ = mass_factor(cards);
   }
 
   void mass(const Card& card)
@@ -397,11 +419,12 @@ class PointDeclarer {
     Vector offset = card.vector_or_zero(5, "a component of X");
     if (is_position) offset = minus(offset, position(card, node));
     const auto moment = [&](std::size_t i) {
-      return card.real_or(i, "a moment of inertia", 0.0) * units_.moment_of_inertia();
+      return mass_factor_ * card.real_or(i, "a moment of inertia", 0.0) *
+             units_.moment_of_inertia();
     };
     // I21, I31 and I32 are int x y dm; a scene's products of inertia have the other sign.
     all_.masses.push_back({.at = holder(card, name_of_mass(card), node),
-                           .mass = card.real(4, "M") * units_.mass(),
+                           .mass = mass_factor_ * card.real(4, "M") * units_.mass(),
                            .inertia = {moment(9), moment(11), moment(14), 0.0 - moment(10),
                                        0.0 - moment(12), 0.0 - moment(13)},
                            .offset = {offset[0] * units_.length, offset[1] * units_.length,
@@ -519,6 +542,7 @@ class PointDeclarer {
   Declarations& all_;
   std::set<std::int64_t> in_own_axes_;
   std::map<std::int64_t, double> stiffness_of_;  ///< of each PELAS
+  double mass_factor_ = 1.0;
 };
 
 }  // namespace

@@ -61,45 +61,96 @@ NodeMask own_nodes(const mesh::Mesh& mesh, const DofMap& dofs, MPI_Comm comm)
 
 }  // namespace
 
-System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs, MPI_Comm comm)
+namespace {
+
+/// Sums of the matrices of a system over one pattern.
+struct Sums {
+  BlockRows K, M, H, C;
+
+  explicit Sums(const BlockPattern& pattern) : K(pattern), M(pattern), H(pattern), C(pattern) {}
+};
+
+void add_elements(const mesh::Mesh& mesh, const Structure& structure, const DofMap& dofs,
+                  const BlockPattern& pattern, MPI_Comm comm, Sums& sums)
 {
-  const int rank = petsc::rank(comm);
-  checked_count(std::int64_t{dofs.n_active()} * dofs.n_components(), "DOFs", "use a coarser mesh");
   const SectionMap sections = map_sections(mesh, structure);
-  const std::vector<PointElement> points = point_elements(mesh, structure, dofs);
   const Directors directors =
       on_all_ranks(comm, [&] { return shell_directors(mesh, own_nodes(mesh, dofs, comm)); });
-  const BlockPattern pattern = element_pattern(mesh, points, dofs, rank);
   const bool is_lossy = has_loss_factors(structure);
-  BlockRows K(pattern), M(pattern), H(pattern);
   const auto add_element = [&](const mesh::ElementBlock& block, int e, const auto&) {
     const ElementContext context{sections, structure, directors};
     auto [matrices, arms] = element_matrices(mesh, block, e, context);
     const ElementMotion motion = element_motion(dofs, block.element_nodes(e), arms);
     const std::vector<std::ptrdiff_t> places = block_places(pattern, motion.numbers);
     const double eta = is_lossy ? loss_factor(block, e, context) : 0.0;
-    if (eta > 0.0) add_symmetric(H, eta * matrices.K, motion, dofs, places);
-    add_symmetric(K, std::move(matrices.K), motion, dofs, places);
-    add_symmetric(M, std::move(matrices.M), motion, dofs, places);
+    if (eta > 0.0) add_symmetric(sums.H, eta * matrices.K, motion, dofs, places);
+    add_symmetric(sums.K, std::move(matrices.K), motion, dofs, places);
+    add_symmetric(sums.M, std::move(matrices.M), motion, dofs, places);
   };
   on_all_ranks(comm, [&] {
-    for_owned_elements(mesh, dofs, rank, add_element);
+    for_owned_elements(mesh, dofs, petsc::rank(comm), add_element);
     return true;
   });
+}
+
+/// Adds the matrices of the mesh.
+void add_blocks(const mesh::NodalMatrices& matrices, const DofMap& dofs,
+                const BlockPattern& pattern, int rank, Sums& sums)
+{
+  const auto add = [&](const std::vector<mesh::MatrixEntry>& matrix, BlockRows& sum) {
+    for_owned_blocks(matrix, dofs, rank, [&](std::span<const int> nodes, auto entries) {
+      const ElementMotion motion = element_motion(dofs, nodes, {});
+      add_symmetric(sum, block_matrix(nodes, entries), motion, dofs,
+                    block_places(pattern, motion.numbers));
+    });
+  };
+  add(matrices.K, sums.K);
+  add(matrices.M, sums.M);
+  add(matrices.C, sums.C);
+  add(matrices.H, sums.H);
+}
+
+void add_points(std::span<const PointElement> points, const DofMap& dofs,
+                const BlockPattern& pattern, Sums& sums)
+{
   for (const PointElement& point : points) {
     const ElementMotion motion = element_motion(dofs, point.nodes, {});
     const std::vector<std::ptrdiff_t> places = block_places(pattern, motion.numbers);
-    if (point.K.size() > 0) add_symmetric(K, point.K, motion, dofs, places);
+    if (point.K.size() > 0) add_symmetric(sums.K, point.K, motion, dofs, places);
     if (point.K.size() > 0 && point.loss_factor > 0.0)
-      add_symmetric(H, point.loss_factor * point.K, motion, dofs, places);
-    if (point.M.size() > 0) add_symmetric(M, point.M, motion, dofs, places);
+      add_symmetric(sums.H, point.loss_factor * point.K, motion, dofs, places);
+    if (point.M.size() > 0) add_symmetric(sums.M, point.M, motion, dofs, places);
   }
-  return {
-      .K = K.to_symmetric_matrix(comm, round_off, Rows::alike),
-      .M = M.to_symmetric_matrix(comm, round_off, Rows::as_they_are),
-      .C = damping_matrix(points, dofs, comm),
-      .H = is_lossy ? H.to_symmetric_matrix(comm, round_off, Rows::as_they_are) : petsc::Matrix(),
-      .dofs = std::move(dofs)};
+}
+
+}  // namespace
+
+System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs, MPI_Comm comm)
+{
+  checked_count(std::int64_t{dofs.n_active()} * dofs.n_components(), "DOFs", "use a coarser mesh");
+  const std::vector<PointElement> points = point_elements(mesh, structure, dofs);
+  const BlockPattern pattern = element_pattern(mesh, points, dofs, petsc::rank(comm));
+  Sums sums(pattern);
+  const mesh::NodalMatrices* const matrices = mesh.matrices.get();
+  if (matrices != nullptr)
+    add_blocks(*matrices, dofs, pattern, petsc::rank(comm), sums);
+  else
+    add_elements(mesh, structure, dofs, pattern, comm, sums);
+  add_points(points, dofs, pattern, sums);
+  const bool is_lossy =
+      has_loss_factors(structure) || (matrices != nullptr && !matrices->H.empty());
+  petsc::Matrix C = damping_matrix(points, dofs, comm);
+  if (matrices != nullptr && !matrices->C.empty()) {
+    petsc::Matrix of_mesh = sums.C.to_symmetric_matrix(comm, 0.0, Rows::as_they_are);
+    if (C != nullptr) petsc::check(MatAXPY(of_mesh, 1.0, C, DIFFERENT_NONZERO_PATTERN));
+    C = std::move(of_mesh);
+  }
+  return {.K = sums.K.to_symmetric_matrix(comm, round_off, Rows::alike),
+          .M = sums.M.to_symmetric_matrix(comm, round_off, Rows::as_they_are),
+          .C = std::move(C),
+          .H = is_lossy ? sums.H.to_symmetric_matrix(comm, round_off, Rows::as_they_are)
+                        : petsc::Matrix(),
+          .dofs = std::move(dofs)};
 }
 
 System assemble(const mesh::Mesh& mesh, std::span<const ShellSection> sections, DofMap dofs,

@@ -144,12 +144,29 @@ void add_symmetric(BlockRows& A, MatrixXd A_e, const ElementMotion& motion, cons
   A.add(symmetric, places);
 }
 
+MatrixXd block_matrix(std::span<const int> nodes, std::span<const mesh::MatrixEntry> entries)
+{
+  MatrixXd A = MatrixXd::Zero(6 * std::ssize(nodes), 6 * std::ssize(nodes));
+  const Index second = nodes.size() == 1 ? 0 : 6;
+  for (const auto& [row, column, value] : entries)
+    A(row % 6, second + column % 6) = A(second + column % 6, row % 6) = value;
+  return A;
+}
+
 BlockPattern element_pattern(const mesh::Mesh& mesh, std::span<const PointElement> points,
                              const DofMap& dofs, int rank)
 {
   Neighbours neighbours(dofs, rank);
-  for_owned_elements(mesh, dofs, rank,
-                     [&](const auto&, int, const auto& numbers) { neighbours.connect(numbers); });
+  if (mesh.matrices) {
+    for (const auto* matrix : mesh.matrices->all()) {
+      for_owned_blocks(*matrix, dofs, rank, [&](std::span<const int> nodes, auto) {
+        neighbours.connect(active_numbers(dofs, nodes));
+      });
+    }
+  } else {
+    for_owned_elements(mesh, dofs, rank,
+                       [&](const auto&, int, const auto& numbers) { neighbours.connect(numbers); });
+  }
   for (const PointElement& point : points) neighbours.connect(active_numbers(dofs, point.nodes));
   BlockPattern pattern = std::move(neighbours).pattern();
   pattern.full = followed_numbers(dofs);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "mesh/nodal_matrices.hpp"
 #include "plate/assembly/block_rows.hpp"
 #include "plate/dofs/dof_map.hpp"
 #include "plate/dofs/point_elements.hpp"
@@ -39,15 +40,32 @@ void add(BlockRows& A, Eigen::MatrixXd A_e, const ElementMotion& motion, const D
 void add_symmetric(BlockRows& A, Eigen::MatrixXd A_e, const ElementMotion& motion,
                    const DofMap& dofs, std::span<const std::ptrdiff_t> places);
 
+/// Whether an element with these nodes may depend on a number from `first` to before `last`.
+bool may_depend_on(const DofMap& dofs, std::span<const int> nodes, int first, int last);
+
+/// Calls visit(nodes, entries) for each block of a matrix of the mesh that depends on a number that
+/// this rank owns.
+template <typename Visit>
+void for_owned_blocks(const std::vector<mesh::MatrixEntry>& matrix, const DofMap& dofs, int rank,
+                      const Visit& visit)
+{
+  const int first = dofs.first_number(rank), last = dofs.first_number(rank + 1);
+  mesh::for_blocks(matrix, [&](std::span<const int> nodes, auto entries) {
+    if (may_depend_on(dofs, nodes, first, last)) visit(nodes, entries);
+  });
+}
+
+/// A block of a matrix of the mesh as that of an element.
+/// @return [6 n x 6 n] with its one or two nodes, symmetric
+Eigen::MatrixXd block_matrix(std::span<const int> nodes,
+                             std::span<const mesh::MatrixEntry> entries);
+
 /// The pattern of a rank. All active numbers of an element are neighbours, and so are those of a
-/// point element.
+/// block of the matrices of the mesh and of a point element.
 BlockPattern element_pattern(const mesh::Mesh& mesh, std::span<const PointElement> points,
                              const DofMap& dofs, int rank);
 /// The pattern of a rank with the point elements alone.
 BlockPattern point_pattern(std::span<const PointElement> points, const DofMap& dofs, int rank);
-
-/// Whether an element with these nodes may depend on a number from `first` to before `last`.
-bool may_depend_on(const DofMap& dofs, std::span<const int> nodes, int first, int last);
 
 /// Calls visit(block, element, its active numbers) for each element that depends on a number that
 /// this rank owns.

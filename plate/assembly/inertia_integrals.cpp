@@ -15,6 +15,31 @@ using Eigen::Index, Eigen::MatrixXd;
 
 namespace {
 
+/// The mass m_ij of two nodes, or m_ii of one. For any linear f and g of the positions and
+/// displacements, m_ij (f_i g_j + f_j g_i) = 4 m_ij f_c g_c - m_ij f_i g_i - m_ij f_j g_j, where c
+/// is in the middle of both nodes: three points.
+MassPoints nodal_mass_points(const mesh::Mesh& mesh, std::span<const int> nodes, double m)
+{
+  const Index n = std::ssize(nodes), n_points = n == 1 ? 1 : 3;
+  MassPoints points{.dm = Eigen::VectorXd(n_points), .x = NodeVectors(n_points, 3), .N = {}};
+  MatrixXd shares = MatrixXd::Identity(n_points, n);
+  points.dm.setConstant(n == 1 ? m : -m);
+  if (n == 2) {
+    shares.row(2).setConstant(0.5);
+    points.dm[2] = 4.0 * m;
+  }
+  NodeVectors x(n, 3);
+  for (Index i = 0; i < n; ++i)
+    x.row(i) = Eigen::RowVector3d(mesh.positions[std::size_t(nodes[std::size_t(i)])].data());
+  points.x = shares * x;
+  for (Index c = 0; c < 3; ++c) {
+    StrainRows& N_c = points.N[std::size_t(c)];
+    N_c = StrainRows::Zero(n_points, 6 * n);
+    for (Index i = 0; i < n; ++i) N_c.col(6 * i + c) = shares.col(i);
+  }
+  return points;
+}
+
 /// Calls visit(mass points, motion, is counted here) for all elements and masses that have to do
 /// with numbers of this rank; each is counted on one rank alone.
 template <typename Visit>
@@ -26,12 +51,21 @@ void for_owned_points(const MassModel& model, const Visit& visit)
     const PetscInt least = *std::ranges::min_element(numbers);
     return least >= first && least < last;
   };
-  for_owned_elements(
-      model.mesh, model.dofs, rank,
-      [&](const mesh::ElementBlock& block, int e, const std::vector<PetscInt>& numbers) {
-        const auto [points, arms] = element_points(model, block, e);
-        visit(points, element_motion(model.dofs, block.element_nodes(e), arms), counts(numbers));
-      });
+  if (model.mesh.matrices) {
+    for_owned_blocks(model.mesh.matrices->M, model.dofs, rank,
+                     [&](std::span<const int> nodes, std::span<const mesh::MatrixEntry> entries) {
+                       const ElementMotion motion = element_motion(model.dofs, nodes, {});
+                       visit(nodal_mass_points(model.mesh, nodes, entries.front().value), motion,
+                             counts(motion.numbers));
+                     });
+  } else {
+    for_owned_elements(
+        model.mesh, model.dofs, rank,
+        [&](const mesh::ElementBlock& block, int e, const std::vector<PetscInt>& numbers) {
+          const auto [points, arms] = element_points(model, block, e);
+          visit(points, element_motion(model.dofs, block.element_nodes(e), arms), counts(numbers));
+        });
+  }
   for (std::size_t i = 0; i < model.masses.size(); ++i) {
     const std::array nodes{model.mass_nodes[i]};
     const ElementMotion motion = element_motion(model.dofs, nodes, {});
@@ -200,8 +234,8 @@ MassModel mass_model(const mesh::Mesh& mesh, const Structure& structure, const D
                   .structure = structure,
                   .dofs = dofs,
                   .comm = comm,
-                  .sections = map_sections(mesh, structure),
-                  .directors = shell_directors(mesh),
+                  .sections = mesh.matrices ? SectionMap() : map_sections(mesh, structure),
+                  .directors = mesh.matrices ? Directors() : shell_directors(mesh),
                   .mass_nodes = {},
                   .masses = {},
                   .pattern = {}};

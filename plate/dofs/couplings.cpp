@@ -15,6 +15,7 @@
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "mesh/element_types.hpp"
+#include "mesh/nodal_matrices.hpp"
 #include "plate/elements/interpolation.hpp"
 #include "plate/sections/sections.hpp"
 
@@ -194,9 +195,10 @@ void Following::add(int index)
 void Following::check_held() const
 {
   std::vector<bool> is_held(std::size_t(nodes_.n_nodes()), false);
-  for (const mesh::ElementBlock& block : mesh_.blocks)
-    for (const int node : block.nodes)
+  mesh::for_connected_nodes(mesh_, [&](std::span<const int> nodes) {
+    for (const int node : nodes)
       if (nodes_.is_dependent(node)) is_held[std::size_t(nodes_.reference(node))] = true;
+  });
   for (const Coupling& coupling : couplings_) {
     if (coupling.kind != CouplingKind::rigid || !coupling.has_reference_node()) continue;
     if (is_held[std::size_t(nodes_.reference_node(coupling.name).value())]) continue;

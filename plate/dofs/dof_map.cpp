@@ -11,6 +11,7 @@
 #include <set>
 
 #include "common/error.hpp"
+#include "mesh/nodal_matrices.hpp"
 
 namespace chladni::plate {
 
@@ -32,13 +33,21 @@ void check_components(const Kinematics& kinematics)
       "an averaging coupling needs all six DOFs of each node; use a rigid one, or all six DOFs");
 }
 
-/// Which nodes belong to elements of solids, and which to shells or beams.
+/// Which nodes belong to elements of solids, and which to shells or beams. Of a mesh with matrices
+/// these are the nodes with three DOFs, and those with six.
 struct NodesOfElements {
   std::vector<char> solid, other;
 
   explicit NodesOfElements(const mesh::Mesh& mesh)
       : solid(std::size_t(mesh.n_nodes()), 0), other(std::size_t(mesh.n_nodes()), 0)
   {
+    if (mesh.matrices) {
+      for (std::size_t node = 0; node < solid.size(); ++node) {
+        const int n = mesh.matrices->n_components[node];
+        if (n > 0) (n == 3 ? solid : other)[node] = 1;
+      }
+      return;
+    }
     for (const mesh::ElementBlock& block : mesh.blocks)
       for (const int node : block.nodes)
         (mesh::is_solid(block.shape) ? solid : other)[std::size_t(node)] = 1;

@@ -153,6 +153,7 @@ std::optional<std::pair<std::string, int>> first_drilling_support(const mesh::Me
 MatrixX3d drilling_axes(const mesh::Mesh& mesh, const DofMap& dofs, std::span<const int> nodes)
 {
   MatrixX3d axes = MatrixX3d::Zero(std::ssize(nodes), 3);
+  if (mesh.matrices) return axes;  // nobody knows what resists it there
   NodeMask wanted(std::size_t(mesh.n_nodes()), 0);
   for (const int node : nodes)
     if (node < dofs.n_mesh_nodes()) wanted[std::size_t(node)] = 1;

@@ -12,6 +12,7 @@
 
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
+#include "mesh/nodal_matrices.hpp"
 #include "plate/dofs/point_elements.hpp"
 
 namespace chladni::plate {
@@ -75,13 +76,11 @@ Parts connected_parts(const mesh::Mesh& mesh, const DofMap& dofs,
                       std::span<const PlacedSpring> springs)
 {
   Connection connection(dofs.n_active());
-  for (const mesh::ElementBlock& block : mesh.blocks) {
-    for (int e = 0; e < block.n_elements(); ++e) {
-      const int first = number_of(dofs, block.element_nodes(e)[0]);
-      for (const int node : block.element_nodes(e))
-        for (const MotionTerm& term : dofs.motion(node)) connection.join(first, term.number);
-    }
-  }
+  mesh::for_connected_nodes(mesh, [&](std::span<const int> nodes) {
+    const int first = number_of(dofs, nodes[0]);
+    for (const int node : nodes)
+      for (const MotionTerm& term : dofs.motion(node)) connection.join(first, term.number);
+  });
   Parts parts{.of_number = numbered(connection, dofs.n_active()), .body = {}, .place = {}};
   const int n_parts = count_of(parts.of_number);
   Connection bodies(n_parts);
@@ -274,10 +273,10 @@ std::string describe_motions(const FreePart& part)
 void check_stiffness_of_all_nodes(const mesh::Mesh& mesh, const DofMap& dofs)
 {
   std::vector<bool> touched(dofs.n_active(), false);
-  for (const mesh::ElementBlock& block : mesh.blocks) {
-    for (const int node : block.nodes)
+  mesh::for_connected_nodes(mesh, [&](std::span<const int> nodes) {
+    for (const int node : nodes)
       for (const MotionTerm& term : dofs.motion(node)) touched[term.number] = true;
-  }
+  });
   for (int node = 0; node < dofs.n_nodes(); ++node) {
     if (dofs.number(node) < 0 || touched[dofs.number(node)]) continue;
     if (node >= dofs.n_mesh_nodes()) {

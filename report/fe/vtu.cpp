@@ -92,11 +92,11 @@ int vtu_cell_type(mesh::Shape shape, int order)
     case mesh::Shape::quadrilateral:
       return order == 1 ? 9 : 70;
     case mesh::Shape::tetrahedron:
-      return 24;
+      return order == 2 ? 24 : 10;
     case mesh::Shape::hexahedron:
       return order == 2 ? 25 : 12;
     case mesh::Shape::wedge:
-      return 26;
+      return order == 2 ? 26 : 13;
   }
   return 0;
 }

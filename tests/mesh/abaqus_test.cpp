@@ -147,6 +147,27 @@ TEST(AbaqusDeclarations, HoldTheReferenceNodeOfACoupling)
             CouplingOfDeck::averaging);
 }
 
+TEST(AbaqusDeclarations, HaveRigidBodiesAndConstraintsAsCouplings)
+{
+  const std::string nodes = "*Node\n9, 1., .5\n10, 2., 1.\n*Nset, nset=Edge\n1, 2\n";
+  const Declarations declared = declared_by_abaqus(
+      abaqus_plate + nodes + "*Rigid body, ref node=9, tie nset=Edge\n*MPC\nTIE, 10, 3\n", 1.0);
+  ASSERT_EQ(declared.couplings.size(), 2U);
+  EXPECT_EQ(declared.couplings[0].name, "node_9");
+  EXPECT_EQ(declared.couplings[0].group, "rigid_body_9");
+  EXPECT_EQ(declared.couplings[1].group, "mpc_3");
+  EXPECT_EQ(declared.couplings[1].to, "leader_3");
+  const Deck deck = deck_of_abaqus(abaqus_plate + nodes +
+                                   "*Rigid body, ref node=1, elset=Plate\n*MPC\nBEAM, Edge, 9\n"
+                                   "BEAM, 4, 9\n");
+  const auto group = [&](const std::string& name) {
+    return std::ranges::find(deck.groups, name, &DeckGroup::name)->nodes;
+  };
+  EXPECT_EQ(group("rigid_body_1"), (std::vector<std::int64_t>{2, 3, 4}));
+  EXPECT_EQ(group("mpc_9"), (std::vector<std::int64_t>{1, 2, 4}));
+  EXPECT_EQ(deck.couplings.size(), 2U);
+}
+
 TEST(AbaqusKeywords, MayHaveBlanksAndGoOnBehindAComma)
 {
   const std::vector<Keyword> keywords = abaqus_keywords(
@@ -432,6 +453,15 @@ const std::vector<Refusal> refused_keywords{
     {abaqus_plate + "*Element, type=B31, elset=Rib\n7, 1, 2\n"
                     "*Beam Section, elset=Rib, material=Steel, section=L\n4., 2., 1., 1.\n",
      {"*BEAM SECTION", "the profile L"}},
+    {abaqus_plate + "*Rigid body, ref node=All, tie nset=All\n", {"*RIGID BODY", "4 nodes"}},
+    {abaqus_plate + "*Rigid body, ref node=1, pin nset=All\n", {"*RIGID BODY", "TIE NSET"}},
+    {abaqus_plate + "*Rigid body, ref node=1, elset=None\n", {"*RIGID BODY", "no element set"}},
+    {abaqus_plate + "*Rigid body, ref node=1, tie nset=All, position=CENTER OF MASS\n",
+     {"*RIGID BODY", "POSITION = INPUT"}},
+    {abaqus_plate + "*MPC\nSLIDER, 1, 2, 3\n", {"*MPC", "SLIDER", "BEAM and TIE"}},
+    {abaqus_plate + "*MPC\nTIE, 1, 2\n", {"*MPC", "1 and 2 are apart"}},
+    {abaqus_plate + "*MPC\nBEAM, 1\n", {"*MPC", "one node"}},
+    {abaqus_plate + "*Tie, name=T\nA, B\n", {"*TIE", "common nodes"}},
     {"1, 2\n*Node\n", {"line 1", "before the first keyword"}}};
 
 INSTANTIATE_TEST_SUITE_P(Abaqus, RefusedKeyword, ::testing::ValuesIn(refused_keywords));

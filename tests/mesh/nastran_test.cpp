@@ -98,6 +98,34 @@ TEST(NastranDeck, PlacesNodesByCoordinateSystemsThatReferToEachOther)
   at(2, 10.0, 3.0, 0.0);
 }
 
+/// The grids of CORD1R stand in a system of CORD2R, and a second system is on the same card.
+TEST(NastranDeck, PlacesNodesBySystemsOfGrids)
+{
+  const Deck deck = deck_of_nastran(
+      "CORD1C,1,10,11,12,4,10,12,11\nCORD2R,2,,10.,0.,0.,10.,0.,1.\n,10.,1.,0.\n"
+      "GRID,10,2,0.,0.,0.\nGRID,11,2,0.,0.,3.\nGRID,12,2,2.,0.,0.\n"
+      "GRID,1,1,3.,90.,5.\nGRID,2,4,3.,90.,5.\n");
+  const auto at = [&](std::int64_t number, double x, double y, double z) {
+    const auto& found = deck.nodes.at(number);
+    EXPECT_NEAR(found[0], x, 1e-14);
+    EXPECT_NEAR(found[1], y, 1e-14);
+    EXPECT_NEAR(found[2], z, 1e-14);
+  };
+  at(1, 7.0, 0.0, 5.0);   // x along (0, 1, 0), so that 90 degrees are along (-1, 0, 0)
+  at(2, 13.0, 5.0, 0.0);  // z along (0, 1, 0) and x along (0, 0, 1): 90 degrees are along (1, 0, 0)
+}
+
+TEST(NastranDeck, KeepsTheAnalysisSetAndLeavesAnalysesOut)
+{
+  const Deck deck = deck_of_nastran(nastran_square +
+                                    "ASET,1,123,2,123456\nASET1,123,3,THRU,4\nSPOINT,101,THRU,104\n"
+                                    "QSET1,0,101,THRU,104\nPLOTEL,9,1,2\nTABDMP1,5\n");
+  const auto aset = std::ranges::find(deck.groups, "aset", &DeckGroup::name);
+  ASSERT_NE(aset, deck.groups.end());
+  EXPECT_EQ(aset->nodes, (std::vector<std::int64_t>{1, 2, 3, 4}));
+  EXPECT_EQ(deck.notes.size(), 4U);
+}
+
 TEST(NastranDeck, NamesItsGroupsByPropertiesSetsAndConstraints)
 {
   const Mesh mesh = mesh_of(
@@ -415,6 +443,29 @@ TEST(NastranDeclarations, HoldTheSetsThatCaseControlChooses)
   EXPECT_NE(unchosen.notes.at(0).find("chooses no SPC"), std::string::npos);
 }
 
+TEST(NastranDeclarations, HaveMassesTimesTheirFactor)
+{
+  const std::string bulk = nastran_plate + "CONM2,3,1,,4.\n,2.,,3.,,,5.\n";
+  const Declarations plain = declared_by_nastran(bulk, 1.0);
+  for (const std::string& text :
+       {bulk + "PARAM,WTMASS,.5\n", "SOL 103\nCEND\nPARAM,WTMASS,.5\nBEGIN BULK\n" + bulk}) {
+    const Declarations half = declared_by_nastran(text, 1.0);
+    EXPECT_DOUBLE_EQ(half.materials.at(0).density, 0.5 * plain.materials.at(0).density);
+    EXPECT_DOUBLE_EQ(half.masses.at(0).mass, 2.0);
+    EXPECT_DOUBLE_EQ(half.masses.at(0).inertia[1], 1.5);
+  }
+}
+
+TEST(NastranDeclarations, TellWhereAMeanLeavesRotationsFree)
+{
+  const Declarations declared =
+      declared_by_nastran(nastran_plate + "GRID,9,,0.,0.,1.\nRBE3,6,,9,123,1.,123,1,2,\n,3\n", 1.0);
+  EXPECT_EQ(declared.couplings.at(0).kind, CouplingOfDeck::averaging);
+  EXPECT_TRUE(std::ranges::any_of(declared.notes, [](const std::string& note) {
+    return note.find("rotations of node 9") != std::string::npos;
+  }));
+}
+
 TEST(NastranDeclarations, PassOverHeldNodesOfNoElement)
 {
   const Declarations declared = declared_by_nastran(
@@ -560,7 +611,14 @@ const std::vector<Refusal> refused_cards{
      {"PBAR 5", "one of its two planes"}},
     {nastran_plate + "GRDSET,,,,,,,1\nGRDSET,,,,,,,2\n", {"GRDSET", "one already"}},
     {nastran_plate + "RBE3,6,,9,123456,1.,123,1,2\n,2.,123,3\n", {"RBE3 6", "several weights"}},
-    {nastran_plate + "PARAM,WTMASS,.00259\n", {"PARAM WTMASS", "densities"}},
+    {nastran_plate + "PARAM,WTMASS,0.\n", {"PARAM WTMASS", "positive factor"}},
+    {nastran_plate + "PARAM,WTMASS,2.\nPARAM,WTMASS,3.\n", {"line 9", "line 8 says another"}},
+    {nastran_plate + "PCOMP,8,,,,,,,,\n,9,1.,0.\n", {"PCOMP 8", "laminate", "mesh.matrices"}},
+    {nastran_plate + "MAT8,8,1.,1.,.3,1.\n", {"MAT8 8", "not isotropic"}},
+    {nastran_plate + "CORD1R,3,1,2,9\n", {"CORD1R 3", "no GRID 9"}},
+    {nastran_plate + "CORD1R,3,1,2,2\n", {"CORD1R 3", "on one line"}},
+    {nastran_plate + "GRID,9,3,1.,0.,0.\nCORD1R,3,1,2,9\n", {"CORD1R 3", "refers to itself"}},
+    {nastran_plate + "RBE3,6,,9,12,1.,123,1,2\n", {"RBE3 6", "123456 nor 123"}},
     {nastran_square + nastran_steel + "PSHELL,7,9,2.\n", {"PSHELL 7", "MID2"}},
     {nastran_square + nastran_steel + "PSHELL,7,9,2.,9,.5,9\n", {"PSHELL 7", "12I/T**3"}},
     {nastran_square + nastran_steel + "PSHELL,7,9,2.,9,,9,,1.-9\n", {"PSHELL 7", "NSM"}},
