@@ -152,8 +152,6 @@ class SuperelementReader {
     return std::move(found_);
   }
 
-  const std::vector<Card>& cards() const { return cards_; }
-
  private:
   void grid(const Card& card)
   {
@@ -166,14 +164,21 @@ class SuperelementReader {
     if (card.integer_or(6, "CD", 0) != 0) found_.turned_grids.insert(number);
   }
 
-  void points(const Card& card)
+  /// The numbers that a card lists from a field on.
+  static std::vector<std::int64_t> numbers_in(const Card& card, std::size_t first)
   {
     constexpr std::int64_t most = 1'000'000;
-    for (const mesh::NumberRange& range : card.ranges(1, "number of a scalar point")) {
-      if (range.to - range.from > most) card.refuse("has more scalar points than a body has modes");
-      for (std::int64_t i = range.from; i <= range.to; i += range.step)
-        found_.scalar_points.insert(i);
+    std::vector<std::int64_t> numbers;
+    for (const mesh::NumberRange& range : card.ranges(first, "number of a grid or scalar point")) {
+      if (range.to - range.from > most) card.refuse("lists more than a million numbers");
+      for (std::int64_t i = range.from; i <= range.to; i += range.step) numbers.push_back(i);
     }
+    return numbers;
+  }
+
+  void points(const Card& card)
+  {
+    for (const std::int64_t number : numbers_in(card, 1)) found_.scalar_points.insert(number);
   }
 
   void set(const Card& card)
@@ -182,19 +187,12 @@ class SuperelementReader {
     const auto named = names_.find(number);
     auto& [name, grids] = found_.sets.emplace_back();
     name = named == names_.end() ? fmt::format("set_{}", number) : named->second;
-    for (const mesh::NumberRange& range : card.ranges(2, "number of a grid")) {
-      if (range.from == range.to)
-        grids.push_back(range.from);
-      else
-        for (const auto& [grid, x] : found_.grids)
-          if (grid >= range.from && grid <= range.to) grids.push_back(grid);
-    }
+    grids = numbers_in(card, 2);
   }
 
   /// Components "123" of a grid, or a scalar point.
   void add(const Card& card, std::int64_t id, std::size_t field)
   {
-    const bool is_modal = card.name().starts_with('Q');
     std::vector<int> components{0};
     if (card.has(field) && card.field(field) != "0") {
       components = card.components(field);
@@ -202,7 +200,7 @@ class SuperelementReader {
     }
     for (const int c : components) {
       found_.listed.emplace(id, c);
-      if (is_modal) found_.modal.emplace(id, c);
+      if (is_modal(card)) found_.modal.emplace(id, c);
     }
   }
 
@@ -214,13 +212,12 @@ class SuperelementReader {
 
   void listed(const Card& card)
   {
-    for (const mesh::NumberRange& range : card.ranges(2, "number of a grid"))
-      for (std::int64_t id = range.from; id <= range.to; id += range.step) {
-        if (range.from == range.to || found_.grids.contains(id) ||
-            found_.scalar_points.contains(id))
-          add(card, id, 1);
-      }
+    for (const std::int64_t id : numbers_in(card, 2))
+      if (found_.grids.contains(id) || found_.scalar_points.contains(id) || is_modal(card))
+        add(card, id, 1);
   }
+
+  static bool is_modal(const Card& card) { return card.name().starts_with('Q'); }
 
   void matrix(const Card& card)
   {

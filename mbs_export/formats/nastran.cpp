@@ -392,8 +392,6 @@ class Op4Reader {
   virtual void end_column() = 0;
   /// The number of values that n words of a dense column are.
   virtual std::int64_t values_of_dense(const Op4Header& header, std::int64_t n) const = 0;
-  /// Words of the numbers that begin a string, within the words of its column.
-  virtual std::int64_t words_of_start(bool is_big) const = 0;
   [[noreturn]] virtual void refuse(const std::string& why) const = 0;
 };
 
@@ -450,7 +448,6 @@ class FormattedOp4 final : public Op4Reader {
   }
   void end_column() override {}
   std::int64_t values_of_dense(const Op4Header&, std::int64_t n) const override { return n; }
-  std::int64_t words_of_start(bool is_big) const override { return is_big ? 2 : 1; }
   [[noreturn]] void refuse(const std::string& why) const override
   {
     throw Error(fmt::format("line {}: {}", line_, why));
@@ -545,7 +542,6 @@ class BinaryOp4 final : public Op4Reader {
   {
     return n / header.words();
   }
-  std::int64_t words_of_start(bool is_big) const override { return is_big ? 2 : 1; }
   [[noreturn]] void refuse(const std::string& why) const override
   {
     throw Error(fmt::format("byte {}: {}", at_, why));
@@ -610,7 +606,7 @@ void read_strings(Op4Reader& reader, const Op4Header& header, Index column, std:
     const std::int64_t row = is_big ? second : first % (largest + 1);
     if (words < 1) reader.refuse("a string of values is empty");
     put(reader, A, row - 1, column, reader.values(header, words / header.words()));
-    n_words -= words + reader.words_of_start(is_big);
+    n_words -= words + (is_big ? 2 : 1);
   }
 }
 
@@ -622,7 +618,8 @@ MatrixXd read_matrix(Op4Reader& reader, const Op4Header& header, bool is_wanted)
     reader.refuse(fmt::format("{} is {} x {}", header.name, rows, header.columns));
   if (is_wanted && header.type > 2)
     reader.refuse(header.name + " is complex; real stiffness, mass and damping can be read");
-  MatrixXd A = is_wanted ? MatrixXd::Zero(rows, header.columns) : MatrixXd();
+  MatrixXd A;
+  if (is_wanted) A.setZero(rows, header.columns);
   while (true) {
     const auto [column, row, n] = reader.column(header);
     const bool is_end = column > header.columns;
