@@ -84,7 +84,7 @@ struct Mesh {
   std::vector<std::string> notes;  ///< for the user: what was changed or left out on reading
   Sectors sectors = {};
   std::vector<FaceNode> face_nodes = {};  ///< of rings on faces
-  std::string made_by = {};  ///< path of the library that made it; empty: this program
+  std::string made_by = {};               ///< path of the library that made it; empty: this program
   /// Matrices of another program for the nodes; its elements are then the geometry alone.
   std::shared_ptr<const NodalMatrices> matrices = {};
 
