@@ -165,7 +165,8 @@ void check_unpacked(const Mesh& mesh)
     require(on_face.nodes.size() == on_face.weights.size(), "a node on a face without weights");
   }
   if (!mesh.matrices) return;
-  require(mesh.matrices->n_components.size() == mesh.positions.size(), "matrices of other nodes");
+  require(mesh.matrices->n_components.size() + mesh.face_nodes.size() == mesh.positions.size(),
+          "matrices of other nodes");
   for (const auto* matrix : mesh.matrices->all())
     for (const auto& [row, column, value] : *matrix)
       check_indices({row, column}, 0, 6 * mesh.positions.size(), "an entry of no node");

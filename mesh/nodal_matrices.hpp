@@ -20,7 +20,7 @@ struct MatrixEntry {
 /// The symmetric matrices of another program for the nodes of a mesh, ordered by the nodes of rows
 /// and columns.
 struct NodalMatrices {
-  std::vector<std::int8_t> n_components;  ///< [n_nodes] 0 (no DOFs), 3 (displacements) or 6
+  std::vector<std::int8_t> n_components;  ///< [n_nodes of the file] 0 (no DOFs), 3 or 6
   std::vector<MatrixEntry> K, M, C, H;    ///< C and H may be empty
 
   std::array<const std::vector<MatrixEntry>*, 4> all() const { return {&K, &M, &C, &H}; }

@@ -42,8 +42,9 @@ struct NodesOfElements {
       : solid(std::size_t(mesh.n_nodes()), 0), other(std::size_t(mesh.n_nodes()), 0)
   {
     if (mesh.matrices) {
-      for (std::size_t node = 0; node < solid.size(); ++node) {
-        const int n = mesh.matrices->n_components[node];
+      const auto& n_components = mesh.matrices->n_components;  // rings on faces have nodes beyond
+      for (std::size_t node = 0; node < n_components.size(); ++node) {
+        const int n = n_components[node];
         if (n > 0) (n == 3 ? solid : other)[node] = 1;
       }
       return;
