@@ -147,7 +147,7 @@ def takes_mesh_file(programs, folder, exact):
 
     said = said_to(1e-3, 3, 0)
     assert re.search(r"plate.msh raised to order 3.*estimated error of the mesh", said), said
-    found = [f for f in json.loads((folder / "found.json").read_text())["frequencies_Hz"] if 1.0 < f < UP_TO_HZ]
+    found = [f for f in json.loads((folder / "found.json").read_text())["frequencies_Hz"] if 1.0 < f < OF_MODELS_HZ]  # as `exact`
     good = check("plate of a .msh", found, exact, 1e-3, 0)
     numbers = '[interface]\nnodes = ["corner"]\n[reduce]\nresultants = ["plate"]\nresultant_elements = [1]\n'
     coarse, fine = said_to(1e-3, 3, 1, "reduce", numbers), said_to(1e-3, 24, 1, "reduce", numbers)
