@@ -8,7 +8,8 @@ have a library and a unit test). Those of one library are compiled together: eac
 becomes `mutants::is(17) ? a <= b : a < b`. What cannot be written so is compiled by itself. A first run of the tests, with no
 fault, notes which test reaches which of them and how long it takes. A fault is tried by the tests that reach it, the shortest
 first, until one fails, hangs or dies; what survives on one rank is tried on several, as in the gate. PAGE.md gets a table by
-room and all survivors with file and line; `again` makes it anew from the last run, with what is known to be equivalent by now.
+room and all survivors with file and line; `again` tries what has survived the last run by the tests as they are
+by now, with the objects that the run has left, and makes the page anew.
 
 Debian 12 and 13 package no such tool for C++: Mull, Dextool, universalmutator and Milu were looked for, and a search for
 "mutation" finds genetics, permutations and JavaScript alone.
@@ -21,6 +22,7 @@ import random
 import re
 import resource
 import shlex
+import shutil
 import subprocess
 import sys
 import time
@@ -63,6 +65,17 @@ EQUIVALENT = [
      "how many rows are written at a time; the file is the same"),
     ("linear/dense/dense_solvers.cpp", "const Eigen::VectorXd s = std::min(A.rows(), A.cols()) <= few", None,
      "two algorithms for the same values; which one is faster"),
+    ("scene/read_sound.cpp", '.rate_Hz = table.integer("rate_Hz", {.at_least = 8000.0, .at_most = 192000.0, .unit = "Hz"}),', None,
+     "the table of keys has the limits too"),
+    ("mbs_export/formats/nastran.cpp", "if (!A.allFinite() || A.cwiseAbs().maxCoeff() > 1e99)",
+     "if (!A.allFinite() || (A.cwiseAbs().maxCoeff() >= 1e99))", "no entry is the limit itself"),
+    ("mbs_export/check_body.cpp", 'checks.push_back({"their stiffness", stiffness > 1e-12 ? Verdict::pass : Verdict::fail, stiffness,',
+     'checks.push_back({"their stiffness", (stiffness >= 1e-12) ? Verdict::pass : Verdict::fail, stiffness,', "no stiffness is the limit itself"),
+    ("mbs_export/select_by_tolerance.cpp", "if (norm <= largest_norm) continue;", "if ((norm < largest_norm)) continue;",
+     "of two groups that lack as much either may be first"),
+    ("linear/lanczos/block_iteration.cpp", "if (was_found) forgotten_from_ = std::min(forgotten_from_, n);",
+     "if (true || (was_found)) forgotten_from_ = std::min(forgotten_from_, n);", "copies are looked for once more; the pairs are the same"),
+    ("reduce/supported_solutions.cpp", "pairs.lambda.resize(options.n_modes);", "nothing", "block Lanczos gives no more than it is asked for"),
     ("reduce/cyclic/harmonic_coordinates.cpp", "if (column.norm() > dependent) B.col(found++) = column.normalized();",
      "if ((column.norm() >= dependent)) B.col(found++) = column.normalized();", "no length is the limit itself"),
     ("plate/elements/shell_strains.cpp", "if (parts == StrainParts::all) {", "if (true || (parts == StrainParts::all)) {",
@@ -550,14 +563,31 @@ def tried(library, fault, programs, known, number):
             return
 
 
+def listener_for(library):
+    (library.scratch / "mutants.hpp").write_text(HEADER, encoding="utf-8")
+    (library.scratch / "listener.cpp").write_text(LISTENER, encoding="utf-8")
+    listener, errors = library.compile(library.of_test, library.scratch / "listener.cpp", library.scratch, "listener")
+    if listener is None:
+        sys.exit(errors)
+    return listener
+
+
+def try_survivors(room, build, scratch, faults):
+    """With the objects of a run before; those compiled by themselves left none for all."""
+    libraries, names = ROOMS[room]
+    library = Library(build, scratch, libraries, names)
+    objects = [listener_for(library), *sorted(scratch.glob("chladni_*/switched.o"))]
+    programs = {name: library.link(name, objects, name) for name in names}
+    known = baseline(library, programs)
+    for fault in faults:
+        tried(library, fault, programs, known, fault.number)
+        report(fault)
+
+
 def try_library(room, build, scratch, faults):
     libraries, names = ROOMS[room]
     library = Library(build, scratch, libraries, names)
-    (scratch / "mutants.hpp").write_text(HEADER, encoding="utf-8")
-    (scratch / "listener.cpp").write_text(LISTENER, encoding="utf-8")
-    listener, errors = library.compile(library.of_test, scratch / "listener.cpp", scratch, "listener")
-    if listener is None:
-        sys.exit(errors)
+    listener = listener_for(library)
     objects = [listener, *compiled(library, faults)]
     programs = {name: library.link(name, objects, name) for name in names}
     known = baseline(library, programs)
@@ -594,17 +624,20 @@ def cell(text):
     return text.replace("|", "\\|")
 
 
-def page(faults, seed, asked):
+def page(faults, run):
     rooms = {}
     for room, fault in faults:
         row = rooms.setdefault(room, {"seen": 0, "survived": 0, "equivalent": 0})
         row["equivalent" if fault.outcome == "survived" and reason(fault) else fault.outcome] += 1
     total = {k: sum(row[k] for row in rooms.values()) for k in ("seen", "survived", "equivalent")}
     yield "# Mutants\n"
+    asked, seed = " ".join(run["asked"]), run["seed"]
+    again = f" What survived was tried again at commit {run['again']}, by the tests of then." if "again" in run else ""
     yield (f"Written by `./dev mutants {asked}` at commit {seed}: small faults, planted at random in the sources of a library "
            "(relations, signs, constants, statements, guards, extremes), and whether the unit tests of the library see them, on as "
            "many ranks as in the gate. The number of commits is the seed, so that other faults are tried each time. An equivalent fault "
-           "changes nothing that a test may ask for; `tests/tools/mutants.py` says why.\n")
+           "changes nothing that a test may ask for; `tests/tools/mutants.py` says why."
+           f"{again}\n")
     yield "| room | seen | survived | equivalent |\n| --- | --- | --- | --- |"
     for room, row in (*sorted(rooms.items()), ("**all**", total)):
         yield f"| {room} | {row['seen']} | {row['survived']} | {row['equivalent']} |"
@@ -619,9 +652,13 @@ def page(faults, seed, asked):
                f"{cell('equivalent: ' + why) if why else cell(fault.seen_by) or 'survived'} |")
 
 
+def number_of_commits():
+    return int(subprocess.run(["git", "rev-list", "--count", "HEAD"], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout)
+
+
 def drawn_from_rooms(build, number, names):
     """(the number of commits, [(room, fault)...])"""
-    seed = int(subprocess.run(["git", "rev-list", "--count", "HEAD"], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout)
+    seed = number_of_commits()
     room_of = {library: room for room in names for library in ROOMS[room][0]}
     paths = {}
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
@@ -644,21 +681,36 @@ def try_all(build, asked, last):
         if not of_room:
             continue
         scratch = build / "mutants" / room.replace("/", "_")
-        scratch.mkdir(parents=True, exist_ok=True)
+        shutil.rmtree(scratch, ignore_errors=True)  # objects of another run
+        scratch.mkdir(parents=True)
         print(f"mutants: {len(of_room)} in {room}  [{time.monotonic() - started:.0f} s]", flush=True)
         try_library(room, build, scratch, of_room)
         done += [{"room": room, **dataclasses.asdict(f)} for f in of_room if f.outcome in ("seen", "survived")]
         last.write_text(json.dumps({"seed": seed, "asked": asked, "faults": done}, indent=1), encoding="utf-8")
 
 
+def try_again(build, last):
+    """The survivors of the last run that are not known to be equivalent."""
+    run = json.loads(last.read_text(encoding="utf-8"))
+    faults = [(entry["room"], Fault(**{k: v for k, v in entry.items() if k != "room"})) for entry in run["faults"]]
+    for room in ROOMS:
+        left = [f for of, f in faults if of == room and f.outcome == "survived" and not f.by_itself and not reason(f)]
+        if left:
+            try_survivors(room, build, build / "mutants" / room.replace("/", "_"), left)
+    run |= {"again": number_of_commits(), "faults": [{"room": room, **dataclasses.asdict(f)} for room, f in faults]}
+    last.write_text(json.dumps(run, indent=1), encoding="utf-8")
+
+
 def main():
     build, target, asked = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), sys.argv[3:]
     last = build / "mutants" / "last.json"
-    if asked != ["again"]:
+    if asked == ["again"]:
+        try_again(build, last)
+    else:
         try_all(build, asked, last)
     run = json.loads(last.read_text(encoding="utf-8"))
     faults = [(entry.pop("room"), Fault(**entry)) for entry in run["faults"]]
-    target.write_text("\n".join(page(faults, run["seed"], " ".join(run["asked"]))) + "\n", encoding="utf-8")
+    target.write_text("\n".join(page(faults, run)) + "\n", encoding="utf-8")
     for _, fault in faults:
         if fault.outcome == "survived" and not reason(fault):
             print(f"survived: {fault.path}:{fault.line}: {fault.before}\n  as: {fault.after}")
