@@ -75,7 +75,12 @@ def left_behind(programs, source, folder):
     command = [programs / "chladni", "reduce", scene, "--output", folder]
     process = subprocess.Popen(command, env=surroundings, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     started, loaded = set(), ""
-    for _ in range(100):  # a second, in which MPI has begun
+    end = time.monotonic() + 60.0  # a busy machine is slow
+    while "mca_btl_self" not in loaded and process.poll() is None and time.monotonic() < end:
+        time.sleep(0.01)
+        started |= set(descendants(process.pid))
+        loaded += Path(f"/proc/{process.pid}/maps").read_text()
+    for _ in range(20):  # what would come beside it
         time.sleep(0.01)
         started |= set(descendants(process.pid)) if process.poll() is None else set()
         loaded += Path(f"/proc/{process.pid}/maps").read_text() if process.poll() is None else ""
