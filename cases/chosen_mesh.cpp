@@ -394,15 +394,25 @@ std::string told_shape(const mesh::Mesh& mesh)
       bend * 180.0 / std::numbers::pi, bend * bend / 8.0);
 }
 
-/// Ways to split the elements of a file, the cheapest first: orders up to 3, where named points
-/// keep their nodes, then halves.
+/// Named points keep their nodes, and no element folds over.
+bool is_possible(const mesh::Mesh& own, int order)
+{
+  try {
+    return plate::keeps_points(own, split(own, {.order = order}));
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// Ways to split the elements of a file, the cheapest first: orders up to 3 that are possible,
+/// then halves.
 std::vector<Split> ways_to_split(const mesh::Mesh& own)
 {
   constexpr int highest = 3, most_halvings = 4;
   std::vector<Split> ways;
   Split last;
   for (int order = own.blocks.front().order + 1; order <= highest; ++order) {
-    if (!plate::keeps_points(own, split(own, {.order = order}))) continue;
+    if (!is_possible(own, order)) continue;
     last.order = order;
     ways.push_back(last);
   }
@@ -419,6 +429,23 @@ std::string described(const Split& into, const std::string& file)
   return text;
 }
 
+/// The best of the meshes that were tried.
+struct BestSplit {
+  double error;
+  std::string mesh;          ///< in words
+  std::string untried = {};  ///< why others were not
+};
+
+[[noreturn]] void refuse_splits(const scene::Scene& scene, const BestSplit& best)
+{
+  const auto [reached, most] = told_apart(best.error, share_of_mesh * scene.accuracy->error);
+  throw Error(fmt::format(
+      "{}: accuracy.error = {:.6g}: the mesh may have {} of it, and that of {} has an error of "
+      "{} up to {:.6g} Hz{}: give a finer one{}",
+      scene.path, scene.accuracy->error, most, best.mesh, reached, scene.accuracy->up_to_Hz,
+      best.untried, or_ask_for_less(best.error)));
+}
+
 /// The mesh of a file that has its own, with its elements split until they keep the accuracy.
 /// @param own  the choice of `mesh`, whose errors are too large
 MeshChoice split_mesh(const scene::Scene& supported, const MeshChoice& own, const mesh::Mesh& mesh,
@@ -426,28 +453,35 @@ MeshChoice split_mesh(const scene::Scene& supported, const MeshChoice& own, cons
 {
   constexpr int most_dofs = 400'000;
   const scene::Scene& scene = own.scene;
-  const double allowed = share_of_mesh * scene.accuracy->error;
-  double least = own.errors->largest();
-  const bool keeps_numbers = !scene.resultants.elements.empty();
-  for (const Split& into : keeps_numbers ? std::vector<Split>{} : ways_to_split(mesh)) {
-    MeshFrequencies frequencies(supported, split(mesh, into));
-    if (frequencies.n_dofs() > most_dofs) break;
-    phases.show_step("errors of " + described(into, *scene.mesh.file));
-    MeshErrors errors = frequencies.errors_up_to(two_pi * scene.accuracy->up_to_Hz, solver);
-    least = std::min(least, errors.largest());
-    if (errors.largest() > allowed) continue;
-    MeshChoice choice{.scene = scene, .errors = std::move(errors)};
-    set_split(choice.scene.mesh, into);
-    tell_choice(choice, described(into, *scene.mesh.file) + told_shape(mesh));
-    return choice;
+  const std::string& file = *scene.mesh.file;
+  BestSplit best{.error = own.errors->largest(), .mesh = file};
+  if (!scene.resultants.elements.empty()) {
+    best.untried = "; reduce.resultant_elements needs its elements as they are";
+    refuse_splits(scene, best);
   }
-  const auto [reached, most] = told_apart(least, allowed);
-  throw Error(fmt::format(
-      "{}: accuracy.error = {:.6g}: the mesh may have {} of it, and that of {} has an error of "
-      "{} up to {:.6g} Hz{}: give a finer one{}",
-      scene.path, scene.accuracy->error, most, *scene.mesh.file, reached, scene.accuracy->up_to_Hz,
-      keeps_numbers ? "; reduce.resultant_elements needs its elements as they are" : "",
-      or_ask_for_less(least)));
+  for (const Split& into : ways_to_split(mesh)) {
+    const std::string name = described(into, file);
+    try {
+      MeshFrequencies frequencies(supported, split(mesh, into));
+      if (const int n = frequencies.n_dofs(); n > most_dofs) {
+        best.untried +=
+            fmt::format("; {} would have {} DOFs, and meshes of more than {} are not tried", name,
+                        n, most_dofs);
+        break;
+      }
+      phases.show_step("errors of " + name);
+      MeshErrors errors = frequencies.errors_up_to(two_pi * scene.accuracy->up_to_Hz, solver);
+      if (errors.largest() < best.error) best = {errors.largest(), name, best.untried};
+      if (errors.largest() > share_of_mesh * scene.accuracy->error) continue;
+      MeshChoice choice{.scene = scene, .errors = std::move(errors)};
+      set_split(choice.scene.mesh, into);
+      tell_choice(choice, name + told_shape(mesh));
+      return choice;
+    } catch (const Error& error) {  // of a refined mesh, on all ranks alike
+      best.untried += fmt::format("; {}: {}", name, error.what());
+    }
+  }
+  refuse_splits(scene, best);
 }
 
 MeshChoice own_mesh(const scene::Scene& supported, const scene::Scene& scene,
