@@ -1,11 +1,14 @@
 #include "cases/scene_mesh.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -69,28 +72,46 @@ void set_split(mesh::MeshOptions& mesh, const Split& into)
 
 namespace {
 
-bool holds_an_edge(const mesh::Group& group, const mesh::Mesh& mesh)
+/// True if one node of the group ends two edges of elements that are in it: two neighbours may be
+/// two points.
+bool holds_a_chain(const mesh::Group& group, const mesh::Mesh& mesh)
 {
   std::vector<char> has(mesh.positions.size(), 0);
   for (const int node : group.nodes) has[std::size_t(node)] = 1;
   const auto is_in = [&](const std::vector<int>& edge) {
     return std::ranges::all_of(edge, [&](int node) { return has[std::size_t(node)] != 0; });
   };
-  return std::ranges::any_of(mesh.blocks, [&](const mesh::ElementBlock& block) {
-    for (int e = 0; !mesh::is_solid(block.shape) && e < block.n_elements(); ++e)
-      if (std::ranges::any_of(mesh::edges_of(block, e), is_in)) return true;
-    return false;
-  });
+  std::map<int, std::set<int>> others;  // ends of edges
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    for (int e = 0; !mesh::is_solid(block.shape) && e < block.n_elements(); ++e) {
+      for (const std::vector<int>& edge : mesh::edges_of(block, e)) {
+        if (!is_in(edge)) continue;
+        others[edge.front()].insert(edge.back());
+        others[edge.back()].insert(edge.front());
+      }
+    }
+  }
+  return std::ranges::any_of(others, [](const auto& of) { return of.second.size() > 1; });
 }
 
-/// Rings keep the nodes that they have.
-void take_edges_of_nodes(mesh::Mesh& mesh, const std::vector<mesh::RingOptions>& rings)
+/// Sets of nodes of files that know no edges; Gmsh's points are points, and rings keep the nodes
+/// that they have.
+void take_edges_of_nodes(mesh::Mesh& mesh, const mesh::MeshOptions& options)
 {
+  if (options.file && mesh::mesh_source(*options.file) == mesh::MeshSource::msh) return;
+  std::vector<std::string> taken;
   for (mesh::Group& group : mesh.groups) {
-    const bool is_ring =
-        std::ranges::find(rings, group.name, &mesh::RingOptions::name) != rings.end();
-    if (group.dimension == 0 && !is_ring && holds_an_edge(group, mesh)) group.dimension = 1;
+    const bool is_ring = std::ranges::find(options.rings, group.name, &mesh::RingOptions::name) !=
+                         options.rings.end();
+    if (group.dimension > 0 || is_ring || !holds_a_chain(group, mesh)) continue;
+    group.dimension = 1;
+    taken.push_back(group.name);
   }
+  if (taken.empty()) return;
+  mesh.notes.push_back(fmt::format(
+      "node sets with a row of neighbours, taken as edges: {}; nodes that accuracy puts between "
+      "neighbours belong to them",
+      fmt::join(taken, ", ")));
 }
 
 }  // namespace
@@ -99,7 +120,7 @@ mesh::Mesh mesh_scene(const scene::Scene& scene)
 {
   mesh::Mesh mesh = mesh::generate(scene.mesh);
   if (!scene.accuracy || has_size(scene.mesh)) return mesh;
-  take_edges_of_nodes(mesh, scene.mesh.rings);
+  take_edges_of_nodes(mesh, scene.mesh);
   const auto halvings = static_cast<int>(std::lround(-std::log2(scene.mesh.size_factor)));
   return split(std::move(mesh), {.order = scene.mesh.element_order, .halvings = halvings});
 }
