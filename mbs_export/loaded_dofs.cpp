@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
@@ -23,8 +24,9 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 constexpr Index most_loads = 256;
 /// Of loads that vary over the nodes of a set.
 constexpr int highest_degree = 8;
-/// Sets of more nodes are edges or surfaces, at whose single nodes forces are a matter of the mesh.
-constexpr std::size_t few_nodes = highest_degree + 1;
+/// Bolts and other points. Sets of more nodes are edges or surfaces, at whose single nodes forces
+/// are a matter of the mesh.
+constexpr std::size_t few_nodes = 24;
 /// On such sets, contact rings apart, where the scene names none.
 constexpr Index most_on_edges = 96;
 
@@ -94,6 +96,28 @@ std::vector<SetLoad> default_loads(const ReducedSystem& reduced, const HeldDofs&
   return loads;
 }
 
+/// Without loads a body is moved by its reactions alone, if the support holds all that a force
+/// could move.
+void refuse_no_loads(const ReducedSystem& reduced, const HeldDofs& held)
+{
+  for (const AttachmentSet& set : reduced.sets) {
+    for (int component = 0; component < 6; ++component) {
+      for (const int node : set.nodes) {
+        if (!has_component(reduced, node, component) || is_drilling(reduced, node, component) ||
+            std::ranges::find(held.dofs, 6 * node + component) != held.dofs.end())
+          continue;
+        throw BodyOptionError(
+            "keep.tolerance",
+            fmt::format("{}.{} is free at node {}, but nothing would be loaded there: contact "
+                        "rings are loaded along z, and sets by what is drilling at none of their "
+                        "nodes; name the loads by interface_modes",
+                        set.name, component_name(component),
+                        reduced.attachment_nodes[std::size_t(node)].number));
+      }
+    }
+  }
+}
+
 /// cos(n phi), sin(n phi) at the nodes, orthonormal, [N x 2]; [N x 1] where the sine vanishes.
 MatrixXd harmonic(const VectorXd& angles, Index n)
 {
@@ -129,22 +153,38 @@ std::vector<Pattern> ring_patterns(const ContactRing& ring, const Pattern& loads
   return patterns;
 }
 
-/// Orthonormal fields over nodes that span the polynomials of x, y and z up to a degree.
-/// @return [n_nodes x k]
-MatrixXd polynomials(const ReducedSystem& reduced, const std::vector<int>& nodes, int degree)
+/// Positions about their mean along their principal axes, of which those are left out that are no
+/// more than the digits of coordinates; the largest is 1.
+/// @return [n_nodes x 0 to 3]
+MatrixXd spread_out(const ReducedSystem& reduced, const std::vector<int>& nodes)
 {
-  constexpr double independent = 1e-8;
+  constexpr double flat = 1e-4;
   MatrixXd X(std::ssize(nodes), 3);
   for (Index i = 0; i < X.rows(); ++i)
     X.row(i) = reduced.attachment_nodes[std::size_t(nodes[std::size_t(i)])].position.transpose();
   X.rowwise() -= X.colwise().mean().eval();
-  if (const double extent = X.cwiseAbs().maxCoeff(); extent > 0.0) X /= extent;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(X.transpose() * X);
+  X *= axes.eigenvectors().rowwise().reverse();
+  const VectorXd extents = X.cwiseAbs().colwise().maxCoeff();
+  if (!(extents[0] > 0.0)) return MatrixXd(X.rows(), 0);
+  const Index n = (extents.array() > flat * extents[0]).count();
+  return X.leftCols(n) / extents[0];
+}
+
+/// Orthonormal fields over nodes that span the polynomials of x, y and z up to a degree.
+/// @return [n_nodes x k]
+MatrixXd polynomials(const ReducedSystem& reduced, const std::vector<int>& nodes, int degree)
+{
+  // Coordinates of a file have six digits and more: a field of which less is left is made of
+  // their round-off by more than its own share.
+  constexpr double independent = 1e-3;
+  const MatrixXd X = spread_out(reduced, nodes);
   MatrixXd fields = MatrixXd::Constant(X.rows(), 1, 1.0 / std::sqrt(double(X.rows())));
   Index first = 0;  // of those of the last degree
   for (int of = 1; of <= degree; ++of) {
     const Index end = fields.cols();
     for (Index j = first; j < end; ++j) {
-      for (Index c = 0; c < 3; ++c) {
+      for (Index c = 0; c < X.cols(); ++c) {
         VectorXd next = X.col(c).cwiseProduct(fields.col(j));
         for (int twice = 0; twice < 2; ++twice) next -= fields * (fields.transpose() * next).eval();
         if (next.norm() < independent) continue;
@@ -332,6 +372,7 @@ LoadedDofs loaded_dofs(const ReducedSystem& reduced, const HeldDofs& held,
       contact_rings(reduced, MatrixXd(6 * Index(reduced.attachment_nodes.size()), 0));
   const std::vector<SetLoad> sets =
       wanted.empty() ? default_loads(reduced, held, rings) : loads_of(reduced, wanted);
+  if (sets.empty()) refuse_no_loads(reduced, held);
   for (const std::optional<Spreading>& way : ways_to_load()) {
     LoadList list(reduced, held, way);
     for (const SetLoad& load : sets) {

@@ -169,7 +169,11 @@ TEST(LoadedDofs, OfAnEdgeAreSpreadBesideThoseOfARing)
 
 TEST(LoadedDofs, OfFewNodesAreEachByItself)
 {
-  EXPECT_EQ(loads_of(nodes_on_a_line(16), {}, {}).spread.size(), 0);
+  for (const int n : {16, 20, 24}) {  // bolts are as many
+    const LoadedDofs loads = loads_of(nodes_on_a_line(n), {}, {});
+    EXPECT_EQ(loads.spread.size(), 0);
+    EXPECT_EQ(std::ssize(loads.is_moment), 6 * n);
+  }
 }
 
 TEST(LoadedDofs, OfASetAreWhereItIsNotHeld)
@@ -186,6 +190,58 @@ TEST(LoadedDofs, OfASetAreWhereItIsNotHeld)
 TEST(LoadedDofs, AreNoneWhereTheSupportHoldsAll)
 {
   EXPECT_TRUE(loads_of(test::wheel(), {"hub", "rim"}, {}).dofs.empty());
+}
+
+TEST(LoadedDofs, AreAskedForWhereSomethingIsFreeThatNothingLoads)
+{
+  const std::string said = files::test::error_of([&] {
+    loads_of(test::wheel(), {"hub", "rim.z"}, {});
+  });
+  EXPECT_NE(said.find("rim.x is free at node 100"), std::string::npos) << said;
+  EXPECT_EQ(loads_of(test::wheel(), {"hub", "rim.z"}, {frm_of("rim", {0})}).dofs.size(), 12u);
+}
+
+/// As a file with so many digits has them.
+ReducedSystem with_six_digits(ReducedSystem system)
+{
+  for (AttachmentNode& node : system.attachment_nodes)
+    node.position = (node.position * 1e6).array().round() * 1e-6;
+  return system;
+}
+
+TEST(LoadedDofs, OfAnObliqueEdgeAreNoRoundOffOfItsCoordinates)
+{
+  ReducedSystem line = nodes_on_a_line(50);
+  for (AttachmentNode& node : line.attachment_nodes)
+    node.position = Eigen::Vector3d(0.3, 0.2, 0.1) * node.position.y();
+  EXPECT_EQ(loads_of(with_six_digits(line), {}, {}).spread.cols(), 54);
+  // On a bow of another hundredth, or a part of it, too: fields repeat those on the line.
+  for (const double height : {1e-5, 1e-4, 1e-3, 1e-2}) {
+    for (AttachmentNode& node : line.attachment_nodes) {
+      const double t = node.position.x() / 0.3;
+      node.position.z() = height * t * (1.0 - t);
+    }
+    const ReducedSystem rounded = with_six_digits(line);
+    const LoadedDofs exact = loads_of(line, {}, {}), given = loads_of(rounded, {}, {});
+    ASSERT_EQ(exact.spread.cols(), given.spread.cols()) << height;
+    EXPECT_EQ(exact.names, given.names);
+    const MatrixXd left = given.spread - exact.spread * (exact.spread.transpose() * given.spread);
+    EXPECT_LT(left.colwise().norm().maxCoeff(), 0.05) << height;
+  }
+}
+
+TEST(LoadedDofs, OfARoundEdgeAreItsHarmonics)
+{
+  // An uneven circle is no contact ring; with 48 nodes its 6 components are 288 DOFs.
+  ReducedSystem circle = nodes_on_a_line(48);
+  for (AttachmentNode& node : circle.attachment_nodes) {
+    const double angle = 2.0 * std::numbers::pi * node.position.y(),
+                 t = angle + 0.1 * std::sin(angle);
+    node.position = {0.1 * std::cos(t), 0.1 * std::sin(t), 0.02};
+  }
+  const LoadedDofs loads = loads_of(with_six_digits(circle), {}, {});
+  EXPECT_EQ(loads.names.front(), "edge.x of degree 7");
+  EXPECT_EQ(loads.spread.cols(), 6 * 15);
 }
 
 TEST(LoadedDofs, RefusesWhatCannotBeLoaded)
