@@ -289,24 +289,10 @@ TEST(Solids, AreFollowedByTheMeanOfTheirFace)
   }
 }
 
-TEST(Solids, AreTheSameInTheHarmonicsOfARing)
+/// Expects the energies of the plain system where nodes have a motion that another system has.
+void expect_same_energies(const System& plain, const System& other, Vec q)
 {
-  const std::vector<mesh::RingOptions> track{{.name = "track", .radius = 0.13, .nodes = 12}};
-  mesh::Mesh flat = mesh::annulus({.inner_radius = 0.025,
-                                   .outer_radius = 0.162,
-                                   .element_size = 0.06,
-                                   .element_order = 2,
-                                   .rings = track});
-  std::erase_if(flat.groups, [](const mesh::Group& group) { return group.name == "track"; });
-  const mesh::Mesh mesh = mesh::extruded(flat, {.from = -0.01, .to = 0.01}, track);
-  const std::vector<SolidSection> disc{{.group = "disc", .material = testing::material}};
-  const std::vector<RingHarmonics> rings{{"track", 3}};
-  const System plain = assemble(mesh, {.solids = disc}, map_of(mesh, {}), PETSC_COMM_WORLD);
-  const System harmonic =
-      assemble(mesh, {.solids = disc}, dofs_of(mesh, {.rings = rings}), PETSC_COMM_WORLD);
-  ASSERT_EQ(plain.dofs.n_dofs(), harmonic.dofs.n_dofs());
-  const petsc::Vector q = random_motion(harmonic);
-  const MatrixXd motions = node_motions(harmonic.dofs, q);
+  const MatrixXd motions = node_motions(other.dofs, q);
   petsc::Vector u;
   petsc::check(MatCreateVecs(plain.K, u.put(), nullptr));
   PetscInt first = 0, last = 0;
@@ -318,9 +304,124 @@ TEST(Solids, AreTheSameInTheHarmonicsOfARing)
   petsc::check(VecAssemblyBegin(u));
   petsc::check(VecAssemblyEnd(u));
   // Sums of some 1e4 terms in another order.
-  EXPECT_NEAR(energy(harmonic.K, q) / energy(plain.K, u), 1.0, 1e-11);
-  EXPECT_NEAR(energy(harmonic.M, q) / energy(plain.M, u), 1.0, 1e-11);
+  EXPECT_NEAR(energy(other.K, q) / energy(plain.K, u), 1.0, 1e-11);
+  EXPECT_NEAR(energy(other.M, q) / energy(plain.M, u), 1.0, 1e-11);
+}
+
+mesh::Mesh solid_annulus(const std::vector<mesh::RingOptions>& track = {})
+{
+  mesh::Mesh flat = mesh::annulus({.inner_radius = 0.025,
+                                   .outer_radius = 0.162,
+                                   .element_size = 0.06,
+                                   .element_order = 2,
+                                   .rings = track});
+  std::erase_if(flat.groups, [](const mesh::Group& group) { return group.name == "track"; });
+  return mesh::extruded(flat, {.from = -0.01, .to = 0.01}, track);
+}
+
+const std::vector<SolidSection> disc{{.group = "disc", .material = testing::material}};
+
+TEST(Solids, AreTheSameInTheHarmonicsOfARing)
+{
+  const mesh::Mesh mesh = solid_annulus({{.name = "track", .radius = 0.13, .nodes = 12}});
+  const std::vector<RingHarmonics> rings{{"track", 3}};
+  const System plain = assemble(mesh, {.solids = disc}, map_of(mesh, {}), PETSC_COMM_WORLD);
+  const System harmonic =
+      assemble(mesh, {.solids = disc}, dofs_of(mesh, {.rings = rings}), PETSC_COMM_WORLD);
+  ASSERT_EQ(plain.dofs.n_dofs(), harmonic.dofs.n_dofs());
+  expect_same_energies(plain, harmonic, random_motion(harmonic));
   EXPECT_EQ(harmonic.dofs.harmonic_dof(harmonic.dofs.harmonic_rings()[0], 2, 3), std::nullopt);
+}
+
+/// Rings on both faces of a mesh without nodes at their places: one of points, closer than the
+/// nodes of the mesh are on their circle, one of means over patches.
+mesh::Mesh with_rings_on_faces(mesh::Mesh mesh)
+{
+  mesh::add_rings(
+      mesh,
+      std::vector<mesh::RingOptions>{
+          {.name = "upper", .radius = 0.117, .nodes = 24, .z = 0.01, .on = mesh::RingOn::face},
+          {.name = "lower",
+           .radius = 0.121,
+           .nodes = 9,
+           .z = -0.01,
+           .on = mesh::RingOn::face,
+           .width = 0.03}});
+  return mesh;
+}
+
+TEST(Solids, AreTheSameWithRingsOnTheirFaces)
+{
+  const mesh::Mesh without = solid_annulus(), mesh = with_rings_on_faces(without);
+  const std::vector<Coupling> pad{average("pad", "top_face")};
+  const std::vector<RingHarmonics> both{{"upper", 5}, {"lower", 2}};
+  const System plain = assemble(without, {.solids = disc}, map_of(without, {}), PETSC_COMM_WORLD);
+  for (const Kinematics& kinematics :
+       {Kinematics{}, Kinematics{.rings = both}, Kinematics{.couplings = pad, .rings = both}}) {
+    const System system =
+        assemble(mesh, {.solids = disc}, dofs_of(mesh, kinematics), PETSC_COMM_WORLD);
+    ASSERT_EQ(plain.dofs.n_dofs(), system.dofs.n_dofs());
+    const petsc::Vector q = random_motion(system);
+    expect_same_energies(plain, system, q);
+    const MatrixXd motions = node_motions(system.dofs, q);
+    for (const mesh::FaceNode& on_face : mesh.face_nodes) {
+      Eigen::RowVectorXd mean = -motions.row(on_face.node);
+      Vector3d place = -system.dofs.position(on_face.node);
+      for (std::size_t j = 0; j < on_face.nodes.size(); ++j) {
+        mean += on_face.weights[j] * motions.row(on_face.nodes[j]);
+        place += on_face.weights[j] * system.dofs.position(on_face.nodes[j]);
+      }
+      EXPECT_LT(mean.norm(), 1e-11);  // the displacements that are solved for are up to 1e2
+      EXPECT_LT(place.norm(), 1e-15);
+    }
+  }
+}
+
+TEST(Solids, KeepTheirRigidMotionsWithRingsOnTheirFaces)
+{
+  const mesh::Mesh mesh = with_rings_on_faces(solid_annulus());
+  const System system = assemble(mesh, {.solids = disc}, dofs_of(mesh, {}), PETSC_COMM_WORLD);
+  EXPECT_FALSE(system.dofs.has_combined_motions());
+  const petsc::Matrix R = rigid_motions(system);
+  petsc::Matrix K_R;
+  petsc::check(MatMatMult(system.K, R, MAT_INITIAL_MATRIX, PETSC_DEFAULT, K_R.put()));
+  PetscReal of_K = 0.0, of_product = 0.0;
+  petsc::check(MatNorm(system.K, NORM_INFINITY, &of_K));
+  petsc::check(MatNorm(K_R, NORM_INFINITY, &of_product));
+  EXPECT_LT(of_product, 1e-13 * of_K);
+}
+
+TEST(Solids, RefuseRingsOnFacesThatCannotBe)
+{
+  const auto of_ring = [](const mesh::RingOptions& ring, mesh::Mesh mesh = solid_annulus()) {
+    return words_of([&] { mesh::add_rings(mesh, std::array{ring}); });
+  };
+  const mesh::RingOptions ring{
+      .name = "upper", .radius = 0.1, .nodes = 12, .on = mesh::RingOn::face};
+  expect_words(of_ring(ring),
+               {"radius 0.1 m, angle 0 degrees", "at z = -0.01, 0.01 m", "say which"});
+  mesh::RingOptions changed = ring;
+  changed.z = 0.009;
+  expect_words(of_ring(changed), {"at z = 0.009 m", "at z = -0.01, 0.01 m"});
+  changed.z = 0.01;
+  EXPECT_EQ(of_ring(changed), "");
+  changed.radius = 0.17;
+  expect_words(of_ring(changed), {"no face of solids there"});
+  changed.radius = 0.155;
+  changed.width = 0.02;
+  expect_words(of_ring(changed), {"radius 0.16", "no face of solids there"});
+  expect_words(of_ring(ring, testing::rectangle({.a = 1.0, .b = 1.0, .n_x = 1, .n_y = 1})),
+               {"the mesh has none"});
+  mesh::Mesh fine = solid_annulus();
+  changed = {.name = "fine", .radius = 0.1, .nodes = 400, .z = 0.01, .on = mesh::RingOn::face};
+  mesh::add_rings(fine, std::array{changed});
+  expect_words(error_of(fine, Kinematics{}), {"ring \"fine\"", "take fewer nodes"});
+  const mesh::Mesh mesh = with_rings_on_faces(solid_annulus());
+  expect_words(error_of(mesh, {{.name = "hub", .group = "lower"}}),
+               {"\"lower\"", "nodes on faces"});
+  const std::vector<Support> supports{{.group = "top_face", .components = {2}}};
+  const DofMap dofs = dofs_of(mesh, {});
+  expect_words(words_of([&] { held_dofs(mesh, dofs, supports); }), {"follows \"upper\""});
 }
 
 TEST(Solids, RefuseWhatNeedsRotationsThatAreNotThere)
