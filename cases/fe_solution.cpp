@@ -19,6 +19,7 @@
 #include "plate/assembly/recovery.hpp"
 #include "plate/dofs/dof_map.hpp"
 #include "plate/dofs/drilling.hpp"
+#include "plate/elements/solid_element.hpp"
 #include "reduce/supported_solutions.hpp"
 #include "report/fe/vtu.hpp"
 #include "report/json.hpp"
@@ -101,6 +102,15 @@ report::Json reported_json(const scene::Scene& scene, const SupportedModel& mode
       nodes.push_back(report::Json::object(
           {{"node", node_number(model.mesh, model.system.dofs, node)},
            {"motion", report::numbers_json(found.motions.row(node).transpose())}}));
+      if (node >= model.mesh.n_nodes()) continue;
+      for (const Eigen::MatrixXd& stresses : found.stresses) {
+        if (stresses.row(node).isZero(0.0)) continue;  // another group has the node
+        nodes.back() = report::Json::object(
+            {{"node", node_number(model.mesh, model.system.dofs, node)},
+             {"motion", report::numbers_json(found.motions.row(node).transpose())},
+             {"stress_Pa", report::numbers_json(stresses.row(node).transpose())}});
+        break;
+      }
     }
     groups.emplace_back(name, report::Json::array(nodes));
   }
@@ -124,8 +134,25 @@ StaticFields static_fields(const scene::Scene& scene, const SupportedModel& mode
     found.resultants.push_back(
         plate::nodal_resultants(model.mesh, section, found.motions, PETSC_COMM_WORLD));
   }
+  for (const plate::SolidSection& section : scene.solids) {
+    found.stresses.push_back(
+        plate::nodal_stresses(model.mesh, section, found.motions, PETSC_COMM_WORLD));
+  }
   return found;
 }
+
+namespace {
+
+/// Pa, at the nodes of solids.
+double largest_von_mises(const StaticFields& found)
+{
+  double largest = 0.0;
+  for (const Eigen::MatrixXd& stresses : found.stresses)
+    largest = std::max(largest, plate::von_mises(stresses).maxCoeff());
+  return largest;
+}
+
+}  // namespace
 
 report::TextTable static_table(const StaticFields& found)
 {
@@ -137,6 +164,10 @@ report::TextTable static_table(const StaticFields& found)
   table.rows.push_back(
       {"sum of the reactions, N", fmt::format("{:.6g} {:.6g} {:.6g}", sum[0], sum[1], sum[2])});
   table.rows.push_back({"strain energy, J", fmt::format("{:.6e}", 0.5 * found.work)});
+  if (!found.stresses.empty()) {
+    table.rows.push_back({"largest von Mises stress at a node, Pa",
+                          fmt::format("{:.6e}", largest_von_mises(found))});
+  }
   return table;
 }
 
@@ -163,6 +194,8 @@ std::vector<report::Json::Member> static_json(const scene::Scene& scene,
                        found.motions.leftCols<3>().rowwise().norm().maxCoeff());
   members.emplace_back("reaction_N", report::numbers_json(sum));
   members.emplace_back("strain_energy_J", 0.5 * found.work);
+  if (!found.stresses.empty())
+    members.emplace_back("largest_von_mises_Pa", largest_von_mises(found));
   members.emplace_back("motions", reported_json(scene, model, found));
   return members;
 }
@@ -173,6 +206,7 @@ report::VtuGrid static_picture(const scene::Scene& scene, const SupportedModel& 
   report::SceneGrid grid = report::scene_grid(model.mesh, scene.sections, model.owners);
   report::add_motions(grid, found.motions, "");
   report::add_resultants(grid, model.mesh, scene.sections, found.resultants);
+  report::add_stresses(grid, model.mesh, scene.solids, found.stresses);
   return std::move(grid.grid);
 }
 

@@ -57,6 +57,8 @@ struct StaticFields {
   double work;                ///< J, by the loads: twice the strain energy
   /// at the nodes, for each section
   std::vector<plate::ShellResultants> resultants;
+  /// Pa, at the nodes, for each section of solids
+  std::vector<Eigen::MatrixXd> stresses;
 };
 
 /// Displacements and section forces under the loads of the scene.
@@ -65,15 +67,17 @@ struct StaticFields {
 StaticFields static_fields(const scene::Scene& scene, const SupportedModel& model,
                            const linear::SolverOptions& solver);
 
-/// A table of the largest displacement, the sum of the reactions and the strain energy.
+/// A table of the largest displacement, the sum of the reactions, the strain energy, and of solids
+/// the largest stress.
 report::TextTable static_table(const StaticFields& found);
 
 /// A table of the displacements of the nodes in the groups that the scene wants reported.
 report::TextTable reported_table(const scene::Scene& scene, const SupportedModel& model,
                                  const StaticFields& found);
 
-/// The JSON members `largest_displacement_m`, `reaction_N`, `strain_energy_J`, and `motions` of
-/// each node of the reported groups, after those of `model_json`.
+/// The JSON members `largest_displacement_m`, `reaction_N`, `strain_energy_J`, of solids
+/// `largest_von_mises_Pa`, and `motions` of each node of the reported groups, with the stresses of
+/// solids, after those of `model_json`.
 std::vector<report::Json::Member> static_json(const scene::Scene& scene,
                                               const SupportedModel& model,
                                               const StaticFields& found);

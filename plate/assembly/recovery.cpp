@@ -1,6 +1,7 @@
 #include "plate/assembly/recovery.hpp"
 
 #include "plate/dofs/couplings.hpp"
+#include "plate/elements/solid_element.hpp"
 #include "plate/sections/sections.hpp"
 
 namespace chladni::plate {
@@ -174,6 +175,36 @@ MatrixXd element_motions(std::span<const int> nodes, const NodeVectors& arms,
 }
 
 }  // namespace
+
+MatrixXd nodal_stresses(const mesh::Mesh& mesh, const SolidSection& section,
+                        const MatrixXd& motions, MPI_Comm comm)
+{
+  const auto index = static_cast<int>(&mesh::find_group(mesh, section.group) - mesh.groups.data());
+  MatrixXd sums = MatrixXd::Zero(mesh.n_nodes(), 7);  // and how many elements
+  const int rank = petsc::rank(comm), n_ranks = petsc::size(comm);
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (!mesh::is_solid(block.shape)) continue;
+    const MatrixXd E = stresses_to_nodes(block.shape, block.order);
+    for (int e = rank; e < block.n_elements(); e += n_ranks) {
+      if (block.group[std::size_t(e)] != index) continue;
+      const std::span<const int> nodes = block.element_nodes(e);
+      const SolidStresses at_points = solid_stresses(
+          block.shape, block.order, element_positions(mesh, block, e), section.material);
+      Eigen::VectorXd u_e(6 * std::ssize(nodes));
+      for (Index i = 0; i < std::ssize(nodes); ++i)
+        u_e.segment<6>(6 * i) = motions.row(nodes[std::size_t(i)]).transpose();
+      const Eigen::VectorXd sigma = at_points.S * u_e;
+      const MatrixXd of_nodes = E * sigma.reshaped(6, E.cols()).transpose();
+      for (Index i = 0; i < of_nodes.rows(); ++i) {
+        sums.row(nodes[std::size_t(i)]).head<6>() += of_nodes.row(i);
+        sums(nodes[std::size_t(i)], 6) += 1.0;
+      }
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
+                comm);
+  return sums.col(6).cwiseMax(1.0).cwiseInverse().asDiagonal() * sums.leftCols<6>();
+}
 
 MatrixXd element_energies(const mesh::Mesh& mesh, const Structure& structure,
                           const MatrixXd& motions, MPI_Comm comm)

@@ -32,6 +32,15 @@ Eigen::MatrixXd reactions(const DofMap& dofs, const std::vector<int>& held, Vec 
 ShellResultants nodal_resultants(const mesh::Mesh& mesh, const ShellSection& section,
                                  const Eigen::MatrixXd& motions, MPI_Comm comm);
 
+/// Stresses at the nodes of the group of one section of solids: those of each element where they
+/// are most accurate are extrapolated to its nodes and averaged over the elements of the group that
+/// meet there.
+/// @return [n_nodes of the mesh x 6] xx, yy, zz, xy, yz, xz, Pa; zero outside the group; on every
+///         rank
+/// @note   Collective on `comm`, over which the elements are divided.
+Eigen::MatrixXd nodal_stresses(const mesh::Mesh& mesh, const SolidSection& section,
+                               const Eigen::MatrixXd& motions, MPI_Comm comm);
+
 /// The strain energy u_e^T K_e u_e / 2 of each element in each motion.
 /// @param motions  [6 n x k] m, rad; row 6 i + c is component c of node i. Rows behind those of the
 ///                 nodes of the mesh have no influence.

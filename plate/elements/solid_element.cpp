@@ -272,6 +272,11 @@ SolidFrame frame_at(const SolidRule& rule, const NodeVectors& nodes, bool has_mo
 
 }  // namespace
 
+MatrixXd solid_shapes(Shape shape, int order, const MatrixX3d& r)
+{
+  return solid_basis(shape, order, r).N;
+}
+
 SolidFrame solid_frame(Shape shape, int order, const NodeVectors& nodes)
 {
   return frame_at(solid_rule(shape, order), nodes, has_incompatible_modes(shape, order));
@@ -417,6 +422,29 @@ MatrixXd solid_geometric_stiffness(const SolidFrame& frame, const Material& mate
 Index stress_points_of(Shape shape, int order)
 {
   return stress_points(shape, order).r.rows();
+}
+
+MatrixXd stresses_to_nodes(Shape shape, int order)
+{
+  const MatrixX3d points = stress_points(shape, order).r;
+  const int p = shape == Shape::hexahedron ? order - 1 : 1;
+  std::vector<std::array<int, 3>> space;
+  for (int k = 0; k <= p; ++k)
+    for (int j = 0; j <= p; ++j)
+      for (int i = 0; i <= p; ++i) {
+        const int degree = shape == Shape::wedge ? i + j : i + j + k;
+        if (shape == Shape::hexahedron || degree <= 1) space.push_back({i, j, k});
+      }
+  return monomials_at(space, parent_nodes(shape, order), -1) *
+         monomials_at(space, points, -1).inverse();
+}
+
+VectorXd von_mises(const MatrixXd& stresses)
+{
+  const auto s = [&](Index c) { return stresses.col(c).array(); };
+  return (0.5 * ((s(0) - s(1)).square() + (s(1) - s(2)).square() + (s(2) - s(0)).square()) +
+          3.0 * (s(3).square() + s(4).square() + s(5).square()))
+      .sqrt();
 }
 
 SolidStresses solid_stresses(Shape shape, int order, const NodeVectors& nodes,

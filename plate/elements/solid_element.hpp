@@ -35,6 +35,11 @@ struct SolidFrame {
 /// (1985) 1129.
 SolidFrame solid_frame(mesh::Shape shape, int order, const NodeVectors& nodes);
 
+/// The shape functions of an element at some points of its parent coordinates.
+/// @param r  [n x 3] as mesh::solid_nodes
+/// @return [n x n_nodes]
+Eigen::MatrixXd solid_shapes(mesh::Shape shape, int order, const Eigen::MatrixX3d& r);
+
 /// K_e = int B^T C B dV and M_e = int rho N^T N dV of an isotropic solid, with six DOFs a node like
 /// all elements; the rows of rotations are zero. Hexahedra of order 1 have nine incompatible modes,
 /// eliminated in the element, which pass the patch test by the Jacobian of the centre. They move as
@@ -67,6 +72,11 @@ SolidStresses solid_stresses(mesh::Shape shape, int order, const NodeVectors& no
                              const Material& material);
 /// The number of these points.
 Eigen::Index stress_points_of(mesh::Shape shape, int order);
+/// The polynomial through values at these points, at the nodes.
+/// @return [n_nodes x n_points]
+Eigen::MatrixXd stresses_to_nodes(mesh::Shape shape, int order);
+/// Von Mises' stress of each row of stresses, Pa.
+Eigen::VectorXd von_mises(const Eigen::MatrixXd& stresses);
 
 /// Points of a face of a solid, (r, s) in [-1, 1]^2 or of a triangle, and the shape functions of
 /// its nodes (mesh::solid_faces) there.

@@ -13,6 +13,7 @@
 
 #include "common/eigen_every.hpp"
 #include "mesh/element_types.hpp"
+#include "plate/elements/solid_element.hpp"
 #include "plate/sections/sections.hpp"
 #include "report/page/page.hpp"
 #include "sound/levels.hpp"
@@ -250,6 +251,26 @@ void add_resultants(SceneGrid& scene_grid, const mesh::Mesh& mesh,
     Q.values.row(i) = section.Q.row(node);
   }
   for (VtuField* field : {&N, &M, &Q}) scene_grid.grid.of_points.push_back(std::move(*field));
+}
+
+void add_stresses(SceneGrid& scene_grid, const mesh::Mesh& mesh,
+                  std::span<const plate::SolidSection> sections, std::span<const MatrixXd> stresses)
+{
+  if (sections.empty()) return;
+  const auto n = static_cast<Index>(scene_grid.node_of_point.size());
+  VtuField stress{.name = "stress", .values = MatrixXd::Zero(n, 6)};
+  for (Index i = 0; i < n; ++i) {
+    const int group = scene_grid.group_of_point[static_cast<std::size_t>(i)];
+    if (group < 0) continue;
+    const std::string& name = mesh.groups[static_cast<std::size_t>(group)].name;
+    const auto section = std::ranges::find(sections, name, &plate::SolidSection::group);
+    if (section == sections.end()) continue;
+    stress.values.row(i) = stresses[static_cast<std::size_t>(section - sections.begin())].row(
+        scene_grid.node_of_point[static_cast<std::size_t>(i)]);
+  }
+  VtuField equivalent{.name = "von_mises", .values = plate::von_mises(stress.values)};
+  scene_grid.grid.of_points.push_back(std::move(stress));
+  scene_grid.grid.of_points.push_back(std::move(equivalent));
 }
 
 namespace {

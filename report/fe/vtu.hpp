@@ -69,6 +69,12 @@ void add_resultants(SceneGrid& scene_grid, const mesh::Mesh& mesh,
                     std::span<const plate::ShellSection> sections,
                     std::span<const plate::ShellResultants> resultants);
 
+/// Adds the stresses of solids and von Mises' at the points; nothing without solids.
+/// @param stresses  for each section, from plate::nodal_stresses
+void add_stresses(SceneGrid& scene_grid, const mesh::Mesh& mesh,
+                  std::span<const plate::SolidSection> sections,
+                  std::span<const Eigen::MatrixXd> stresses);
+
 /// The mesh with its groups as the text of a .vtu file. Its cells are the elements, then the edges
 /// of curve groups and the nodes of point groups. Cell arrays are the element number (0 for an edge
 /// or a node), the index of the group in the mesh (-1 for none), and "group NAME", which is 1 for
