@@ -1,5 +1,6 @@
 #include "cases/mesh_errors.hpp"
 
+#include <fmt/format.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include "cases/fe_model.hpp"
 #include "cases/scene_mesh.hpp"
 #include "common/eigen_every.hpp"
+#include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "mesh/element_types.hpp"
 #include "plate/assembly/recovery.hpp"
@@ -45,7 +47,7 @@ MatrixXd dof_rows(const plate::DofMap& dofs, const MatrixXd& motions,
 {
   std::vector<Index> row_of(static_cast<std::size_t>(dofs.n_dofs()), -1);
   for (int node = 0; node < dofs.n_nodes(); ++node)
-    for (const int c : dofs.components())
+    for (const int c : dofs.components_of(node))
       if (const auto dof = dofs.dof(node, c)) row_of[static_cast<std::size_t>(*dof)] = 6 * node + c;
   MatrixXd rows = MatrixXd::Zero(std::ssize(wanted), motions.cols());
   for (Index i = 0; i < rows.rows(); ++i) {
@@ -213,6 +215,25 @@ RefinedModes modes_on(const scene::Scene& scene, plate::RefinedMesh refined,
 
 }  // namespace
 
+namespace {
+
+/// Halved solids are eight times as many.
+void refuse_large_solids(const SupportedModel& model)
+{
+  constexpr int most = 60'000;
+  const int n_dofs = model.system.dofs.n_dofs();
+  const bool has_solids =
+      std::ranges::any_of(model.mesh.blocks, [](const auto& b) { return mesh::is_solid(b.shape); });
+  if (!has_solids || n_dofs <= most || plate::can_rise(model.mesh)) return;
+  throw Error(fmt::format(
+      "mesh_errors: the errors of these solids come from elements of half the size, and of {} DOFs "
+      "there would be about {}; estimate those of a coarser mesh of at most {} DOFs, or take "
+      "mesh_errors out",
+      n_dofs, 8 * std::int64_t{n_dofs}, most));
+}
+
+}  // namespace
+
 MeshErrors mesh_errors(const scene::Scene& scene, const SupportedModel& model,
                        const reduce::NaturalModes& modes, const linear::SolverOptions& solver)
 {
@@ -233,6 +254,7 @@ MeshErrors mesh_errors(const scene::Scene& scene, const SupportedModel& model,
     return modes_on(scene, std::move(other), known, asked);
   };
   const bool is_large = model.system.dofs.n_dofs() > most_halved;
+  refuse_large_solids(model);
   if (is_large && plate::can_rise(model.mesh))
     find_by_orders(model.mesh, on, found);
   else
@@ -250,7 +272,9 @@ mbs_export::OwnCompliances mesh_compliances(const scene::Scene& scene,
   const LoadedSets loaded = loaded_sets(scene, model.mesh);
   const int n_dofs = model.system.dofs.n_dofs(), order = model.mesh.blocks.front().order;
   const bool by_orders = n_dofs > most_halved;
-  if (loaded.names.empty() || !model.free.empty() || n_dofs > most_by_orders ||
+  const bool has_solids = std::ranges::any_of(
+      model.mesh.blocks, [](const auto& block) { return mesh::is_solid(block.shape); });
+  if (loaded.names.empty() || has_solids || !model.free.empty() || n_dofs > most_by_orders ||
       (by_orders && !plate::can_rise(model.mesh)))
     return {};
   const SupportedModel finer = assemble_supported(

@@ -103,16 +103,13 @@ void refuse_beside_solids(const Table& root, const Scene& scene)
   if (scene.accuracy && !scene.mesh.extrude) {
     root.refuse("accuracy",
                 "of solids chooses the elements of a generator with `extrude`, and this is a file; "
-                "compare its mesh with a finer one");
+                "`mesh_errors = true` in [reduce] estimates what it lets the frequencies be off");
   }
   if (scene.accuracy && root.has("squeal")) {
     root.refuse("accuracy",
                 "of solids does not tell how far the mesh lets the faces of [squeal] move "
                 "otherwise; give [mesh] element_size, and compare with a finer mesh");
   }
-  if (scene.mesh_errors && !scene.accuracy) {
-    root.table("reduce").refuse("mesh_errors",
-                                "is for shells and beams; compare solids with a finer mesh");
   }
 }
 

@@ -9,12 +9,14 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "mesh/element_types.hpp"
 #include "mesh/mesh.hpp"
 #include "plate/elements/interpolation.hpp"
+#include "plate/elements/solid_element.hpp"
 
 namespace chladni::plate {
 
@@ -256,7 +258,7 @@ double EdgeCuts::cut(const std::vector<int>& edge) const
 Cuts EdgeCuts::cuts(const mesh::ElementBlock& block, int element) const
 {
   Cuts cuts = in_the_middle;
-  if (rows_.empty() || block.shape == mesh::Shape::line) return cuts;
+  if (rows_.empty() || !mesh::is_surface(block.shape)) return cuts;
   const std::vector<std::vector<int>> edges = mesh::edges_of(block, element);
   for (std::size_t k = 0; k < edges.size(); ++k) cuts.at(k) = cut(edges[k]);
   return cuts;
@@ -392,8 +394,104 @@ RowVector3d ArcElement::correction(double r, double s) const
 
 using Parameters = std::vector<std::array<double, 2>>;
 
+/// A part of a solid by the parent coordinates of its corners.
+using SolidPart = std::vector<Eigen::RowVector3d>;
+
+/// The eight parts of a solid that is halved in each direction: of a tetrahedron those at its
+/// corners, and four around the diagonal of the rest.
+std::vector<SolidPart> solid_parts(Shape shape, int parts)
+{
+  const std::vector<std::array<double, 3>> nodes = mesh::solid_nodes(shape, 1);
+  const auto n = static_cast<std::size_t>(mesh::n_corners(shape));
+  const auto at = [&](std::size_t place) { return Eigen::RowVector3d(nodes[place].data()); };
+  std::vector<SolidPart> all;
+  SolidPart whole;
+  for (std::size_t i = 0; i < n; ++i) whole.push_back(at(i));
+  if (parts == 1) return {whole};
+  const auto scaled = [&](const Eigen::RowVector3d& towards) {
+    SolidPart part;
+    for (const RowVector3d& corner : whole) part.push_back(0.5 * (corner + towards));
+    return part;
+  };
+  for (std::size_t i = 0; i < n; ++i) all.push_back(scaled(whole[i]));
+  if (shape == Shape::wedge) {
+    for (const std::size_t bottom : {0, 3}) {  // the triangle between three others, by half a turn
+      const RowVector3d sum = whole[bottom] + whole[bottom + 1] + whole[bottom + 2];
+      SolidPart part;
+      for (const RowVector3d& corner : whole) {
+        RowVector3d turned = 0.5 * (sum - corner);
+        turned[2] = 0.5 * (corner[2] + whole[bottom][2]);
+        part.push_back(turned);
+      }
+      all.push_back(part);
+    }
+  }
+  if (shape != Shape::tetrahedron) return all;
+  const auto middle = [&](std::size_t i, std::size_t j) -> RowVector3d {
+    return 0.5 * (whole[i] + whole[j]);
+  };
+  const RowVector3d a = middle(0, 2), b = middle(1, 3);
+  const std::array<RowVector3d, 4> around{middle(0, 1), middle(1, 2), middle(2, 3), middle(0, 3)};
+  for (std::size_t k = 0; k < 4; ++k) {
+    SolidPart part{a, b, around[k], around[(k + 1) % 4]};
+    const RowVector3d first = part[1] - part[0], second = part[2] - part[0];
+    if (first.cross(second).dot(part[3] - part[0]) < 0.0) std::swap(part[2], part[3]);
+    all.push_back(part);
+  }
+  return all;
+}
+
+/// The parts of a solid with their nodes.
+struct SolidPattern {
+  Eigen::MatrixX3d r;                   ///< [n x 3] parent coordinates of all nodes, each once
+  std::vector<std::vector<int>> parts;  ///< their rows
+  MatrixXd shapes;                      ///< [n x nodes of the original]
+  MatrixXd corners;                     ///< [n x corners] functions of the corners alone
+  std::vector<int> same;  ///< [n] the node of the original that stands there; -1: none
+
+  SolidPattern(Shape shape, int order, const Refinement& how);
+};
+
+SolidPattern::SolidPattern(Shape shape, int order, const Refinement& how)
+{
+  constexpr double near = 1e-9;
+  std::vector<RowVector3d> points;
+  const auto place_of = [&](const RowVector3d& x) {
+    const auto found = std::ranges::find_if(
+        points, [&](const RowVector3d& other) { return (other - x).norm() < near; });
+    if (found == points.end()) points.push_back(x);
+    return static_cast<int>(found - points.begin());
+  };
+  const std::vector<std::array<double, 3>> nodes = mesh::solid_nodes(shape, how.order);
+  MatrixX3d own(std::ssize(nodes), 3);
+  for (Index i = 0; i < own.rows(); ++i)
+    own.row(i) = RowVector3d(nodes[static_cast<std::size_t>(i)].data());
+  const MatrixXd linear = solid_shapes(shape, 1, own);
+  for (const SolidPart& part : solid_parts(shape, how.parts)) {
+    parts.emplace_back();
+    for (Index i = 0; i < linear.rows(); ++i) {
+      RowVector3d x = RowVector3d::Zero();
+      for (std::size_t c = 0; c < part.size(); ++c) x += linear(i, Index(c)) * part[c];
+      parts.back().push_back(place_of(x));
+    }
+  }
+  r.resize(std::ssize(points), 3);
+  for (Index i = 0; i < r.rows(); ++i) r.row(i) = points[static_cast<std::size_t>(i)];
+  shapes = solid_shapes(shape, order, r);
+  corners = solid_shapes(shape, 1, r);
+  same.assign(points.size(), -1);
+  const std::size_t n = points.size();
+  const std::vector<std::array<double, 3>> old = mesh::solid_nodes(shape, order);
+  for (std::size_t i = 0; i < old.size(); ++i) {
+    const int place = place_of(RowVector3d(old[i].data()));
+    if (static_cast<std::size_t>(place) < n) same[static_cast<std::size_t>(place)] = int(i);
+    points.resize(n);
+  }
+}
+
 constexpr int highest_order(Shape shape)
 {
+  if (mesh::is_solid(shape)) return shape == Shape::hexahedron ? 3 : 2;
   return shape == Shape::triangle ? 3 : 4;
 }
 
@@ -428,13 +526,146 @@ class Refiner {
 
   RefinedMesh result() &&
   {
-    for (std::size_t b = 0; b < old_.blocks.size(); ++b) add_block(static_cast<int>(b));
+    find_faces();
+    for (std::size_t b = 0; b < old_.blocks.size(); ++b)
+      if (mesh::is_solid(old_.blocks[b].shape))
+        add_solids(static_cast<int>(b));
+      else
+        add_block(static_cast<int>(b));
     keep_free_nodes();
     for (std::size_t g = 0; g < old_.groups.size(); ++g) add_group(g);
+    keep_face_nodes();
     return std::move(new_);
   }
 
  private:
+  void add_solids(int b)
+  {
+    const ElementBlock& old = old_.blocks[static_cast<std::size_t>(b)];
+    const SolidPattern pattern(old.shape, old.order, how_);
+    ElementBlock block{.shape = old.shape,
+                       .order = how_.order,
+                       .nodes_per_element = mesh::n_nodes_of(old.shape, how_.order),
+                       .numbers = {},
+                       .nodes = {},
+                       .group = {}};
+    for (int e = 0; e < old.n_elements(); ++e) {
+      std::vector<int> nodes;
+      for (Index i = 0; i < pattern.r.rows(); ++i) nodes.push_back(solid_node(pattern, b, e, i));
+      for (const std::vector<int>& part : pattern.parts) {
+        for (const int place : part) block.nodes.push_back(nodes[static_cast<std::size_t>(place)]);
+        block.numbers.push_back(how_.parts == 1 ? old.numbers[static_cast<std::size_t>(e)]
+                                                : ++last_element_);
+        block.group.push_back(old.group[static_cast<std::size_t>(e)]);
+      }
+    }
+    new_.mesh.blocks.push_back(std::move(block));
+  }
+
+  /// A place is known by the shares that the corners of its element have in it, which elements with
+  /// a common edge or face agree on.
+  int solid_node(const SolidPattern& pattern, int b, int e, Index place)
+  {
+    constexpr double unit = 1e-6;
+    const ElementBlock& block = old_.blocks[static_cast<std::size_t>(b)];
+    const std::span<const int> old = block.element_nodes(e);
+    std::vector<std::array<int, 2>> key;
+    for (Index c = 0; c < pattern.corners.cols(); ++c) {
+      const auto share = static_cast<int>(std::lround(pattern.corners(place, c) / unit));
+      if (share != 0) key.push_back({old[static_cast<std::size_t>(c)], share});
+    }
+    std::ranges::sort(key);
+    const auto [known, is_new] = solid_places_.try_emplace(key, -1);
+    if (!is_new) return known->second;
+    const Eigen::RowVectorXd N = pattern.shapes.row(place);
+    const int same = pattern.same[static_cast<std::size_t>(place)];
+    if (same >= 0) {
+      const int node = same_node(old[static_cast<std::size_t>(same)], {b, e, N});
+      return known->second = node;
+    }
+    std::array<double, 3> x{};
+    for (std::size_t i = 0; i < old.size(); ++i)
+      for (std::size_t c = 0; c < 3; ++c)
+        x[c] += N[static_cast<Index>(i)] * old_.positions[static_cast<std::size_t>(old[i])][c];
+    new_.mesh.node_numbers.push_back(++last_number_);
+    new_.mesh.positions.push_back(x);
+    new_.places.push_back({b, e, N});
+    known->second = new_.mesh.n_nodes() - 1;
+    join_solids(known->second, block, e, key);
+    return known->second;
+  }
+
+  /// A new node of a solid joins the groups that have the edge, the face or the element in which
+  /// it is.
+  void join_solids(int node, const ElementBlock& block, int e,
+                   const std::vector<std::array<int, 2>>& corners)
+  {
+    const std::span<const int> nodes = block.element_nodes(e);
+    const std::vector<int> edge = piece_of(mesh::places_of_edges(block.shape, block.order), nodes,
+                                           corners, mesh::n_corners(block.shape));
+    const std::vector<int> face = piece_of(mesh::solid_faces(block.shape, block.order), nodes,
+                                           corners, mesh::n_corners(block.shape));
+    const std::vector<int>& piece = !edge.empty() ? edge : face;
+    for (std::size_t g = 0; g < members_.size(); ++g) {
+      const auto is_member = [&](int one) {
+        return members_[g][static_cast<std::size_t>(one)] != 0;
+      };
+      const int dimension = old_.groups[g].dimension;
+      const bool has = dimension == 3   ? std::ranges::all_of(nodes, is_member)
+                       : dimension == 1 ? !edge.empty() && std::ranges::all_of(edge, is_member)
+                                        : !piece.empty() && faces_[g].contains(piece);
+      if (has) joined_[g].push_back(node);
+    }
+  }
+
+  /// The nodes of the edge or face of a solid in which these corners are all, ascending; none where
+  /// there is no such.
+  static std::vector<int> piece_of(const std::vector<std::vector<int>>& pieces,
+                                   std::span<const int> nodes,
+                                   const std::vector<std::array<int, 2>>& corners, int n_corners)
+  {
+    for (const std::vector<int>& piece : pieces) {
+      std::vector<int> found;
+      std::size_t n_found = 0;
+      for (const int place : piece) {
+        found.push_back(nodes[static_cast<std::size_t>(place)]);
+        if (place < n_corners && std::ranges::find(corners, found.back(), [](const auto& one) {
+                                   return one[0];
+                                 }) != corners.end())
+          ++n_found;
+      }
+      if (n_found < corners.size()) continue;
+      std::ranges::sort(found);
+      return found;
+    }
+    return {};
+  }
+
+  /// The free faces of solids with all their nodes in a group, and the edges of these.
+  void find_faces()
+  {
+    faces_.resize(old_.groups.size());
+    for (const mesh::FreeFace& face : mesh::free_faces(old_)) {
+      const ElementBlock& block = old_.blocks[face.block];
+      const std::span<const int> nodes = block.element_nodes(face.element);
+      for (std::size_t g = 0; g < members_.size(); ++g) {
+        const auto is_member = [&](int one) {
+          return members_[g][static_cast<std::size_t>(one)] != 0;
+        };
+        if (!std::ranges::all_of(face.nodes, is_member)) continue;
+        faces_[g].insert(key_of(face.nodes));
+        for (const std::vector<int>& places : mesh::places_of_edges(block.shape, block.order)) {
+          std::vector<int> edge;
+          for (const int place : places) edge.push_back(nodes[static_cast<std::size_t>(place)]);
+          const auto is_of_face = [&](int one) {
+            return std::ranges::find(face.nodes, one) != face.nodes.end();
+          };
+          if (std::ranges::all_of(edge, is_of_face)) faces_[g].insert(key_of(edge));
+        }
+      }
+    }
+  }
+
   void add_block(int b)
   {
     const ElementBlock& old = old_.blocks[static_cast<std::size_t>(b)];
@@ -552,13 +783,29 @@ class Refiner {
   /// The new name of a node that stays.
   int node_of(const Work& work, int old, int place)
   {
+    return same_node(old, {work.block, work.element, work.shapes.row(place)});
+  }
+
+  int same_node(int old, RefinedMesh::Place place)
+  {
     int& node = same_[static_cast<std::size_t>(old)];
     if (node >= 0) return node;
     node = new_.mesh.n_nodes();
     new_.mesh.node_numbers.push_back(old_.node_numbers[static_cast<std::size_t>(old)]);
     new_.mesh.positions.push_back(old_.positions[static_cast<std::size_t>(old)]);
-    new_.places.push_back({work.block, work.element, work.shapes.row(place)});
+    new_.places.push_back(std::move(place));
     return node;
+  }
+
+  /// Those whose nodes all stay.
+  void keep_face_nodes()
+  {
+    for (mesh::FaceNode on_face : old_.face_nodes) {
+      on_face.node = same_[static_cast<std::size_t>(on_face.node)];
+      for (int& node : on_face.nodes) node = same_[static_cast<std::size_t>(node)];
+      if (std::ranges::find(on_face.nodes, -1) == on_face.nodes.end())
+        new_.mesh.face_nodes.push_back(std::move(on_face));
+    }
   }
 
   /// Nodes of no element, which follow others, stay; nothing is interpolated there.
@@ -629,6 +876,8 @@ class Refiner {
   std::vector<std::vector<char>> members_;  ///< [groups][old nodes]
   std::vector<std::vector<int>> joined_;    ///< [groups] new nodes
   std::map<std::vector<int>, std::vector<int>> edges_;  ///< old nodes -> new, from the lower end
+  std::vector<std::set<std::vector<int>>> faces_;  ///< [groups] nodes of faces and edges, ascending
+  std::map<std::vector<std::array<int, 2>>, int> solid_places_;  ///< old corners with shares -> new
 };
 
 }  // namespace
@@ -664,7 +913,8 @@ bool can_rise(const Mesh& mesh)
   const bool exists = std::ranges::all_of(mesh.blocks, [&](const ElementBlock& block) {
     return block.order == order && order < highest_order(block.shape);
   });
-  return exists && keeps_points(mesh, refined(mesh, {.parts = 1, .order = order + 1}).mesh);
+  return exists && mesh.face_nodes.empty() &&
+         keeps_points(mesh, refined(mesh, {.parts = 1, .order = order + 1}).mesh);
 }
 
 MatrixXd interpolated(const Mesh& mesh, const RefinedMesh& refined, const MatrixXd& motions)
@@ -679,6 +929,11 @@ MatrixXd interpolated(const Mesh& mesh, const RefinedMesh& refined, const Matrix
           place.shapes[static_cast<Index>(i)] * motions.middleRows<6>(6 * Index(nodes[i]));
     }
   }
+  for (const mesh::FaceNode& on_face : refined.mesh.face_nodes)
+    for (std::size_t i = 0; i < on_face.nodes.size(); ++i) {
+      fine.middleRows<6>(6 * Index(on_face.node)) +=
+          on_face.weights[i] * fine.middleRows<6>(6 * Index(on_face.nodes[i]));
+    }
   return fine;
 }
 

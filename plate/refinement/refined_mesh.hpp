@@ -18,7 +18,7 @@ struct Refinement {
 };
 
 /// A mesh with other elements on the same geometry, which is that of the original's shape
-/// functions, and of circles where the nodes of an edge lie on one.
+/// functions, and in shells of circles where the nodes of an edge lie on one.
 struct RefinedMesh {
   /// A point in an element of the original.
   struct Place {
@@ -33,9 +33,11 @@ struct RefinedMesh {
   std::vector<Place> places;
 };
 
-/// Refines a mesh. Nodes of the original that remain keep their numbers. A group of curves gains
-/// the nodes of edges that it contains, a group of surfaces also those of such elements. Groups of
-/// points and rings gain no nodes, and lose those that the refined elements do not have.
+/// Refines a mesh. Two parts in each direction are eight of a solid. Nodes of the original that
+/// remain keep their numbers. A group of curves gains the nodes of edges that it contains, a group
+/// of surfaces also those of such elements, and any group but one of curves those of the free faces
+/// of solids that it contains. Groups of points and rings gain no nodes, and lose those that the
+/// refined elements do not have. Nodes on faces follow the nodes that they followed.
 RefinedMesh refined(const mesh::Mesh& mesh, const Refinement& refinement);
 
 /// True if an element at a free edge is much wider than two rows, so that it would not be halved in
@@ -47,7 +49,7 @@ bool has_wide_edges(const mesh::Mesh& mesh, const std::vector<double>& rows);
 bool keeps_points(const mesh::Mesh& mesh, const mesh::Mesh& refined);
 
 /// True if all elements are of one order, the next order exists for all, and no group of points and
-/// no ring loses nodes in it.
+/// no ring loses nodes in it, nor a face those that nodes on it follow.
 bool can_rise(const mesh::Mesh& mesh);
 
 /// Displacements and rotations of the refined nodes, interpolated by the original's shape

@@ -160,6 +160,81 @@ report = ["top_face"]
         yield f"block under pressure: reaction {found['reaction_N']}"
 
 
+def mesh_errors(programs, folder):
+    """The estimate is half to three times the error of each exact frequency, of all types of elements."""
+    annulus_of = lambda *values: 'name = "annulus"\n' + GENERATED.format(**dict(zip(("size", "order", "layers", "pattern"), values)))
+    (folder / "sphere.geo").write_text(SPHERE_GEO)
+    steel = {"young": 210e9, "poisson": 0.3, "density": 7850.0}
+    c_s = math.sqrt(steel["young"] / 2.6 / steel["density"])
+    ball = [x * c_s / 0.05 / (2.0 * math.pi) for x in SPHERE]
+    cases = {f"annulus of order {values[1]}, {values[3]}": (annulus_of(*values) + MATERIAL.format(group="disc", count=13, **IRON), ANNULUS)
+             for values in ((0.042, 3, 1, "structured"), (0.042, 2, 1, "structured"), (0.0209, 1, 4, "structured"),
+                            (0.042, 2, 1, "triangles"))}  # fmt: skip
+    cases["sphere"] = 'name = "sphere"\n[mesh]\nfile = "sphere.geo"\n' + MATERIAL.format(group="ball", count=16, **steel), ball
+    for name, (scene, exact) in cases.items():
+        (folder / "scene.toml").write_text(scene + "mesh_errors = true\n")
+        found = summary(programs / "chladni", "modes", folder / "scene.toml", "--output", folder, "--overwrite")
+        pairs = list(zip(found["frequencies_Hz"][6:], found["errors_of_mesh"], sorted(exact)))
+        effectivity = [estimated / abs(f / e - 1.0) for f, estimated, e in pairs]
+        print(f"mesh errors, {name}: {min(effectivity):.2f} to {max(effectivity):.2f} times the error of {max(abs(f / e - 1) for f, _, e in pairs):.1e}")
+        if not (0.5 < min(effectivity) and max(effectivity) < 3.0):
+            yield f"mesh errors, {name}: {effectivity}"
+
+
+def thick_cylinder(programs, folder):
+    """Lame: a cylinder under a pressure inside, between planes; its stresses at the bore."""
+    scene = """name = "cylinder"
+[mesh]
+generator = "annulus"
+inner_radius = 0.05
+outer_radius = 0.1
+element_size = 0.0125
+element_order = {order}
+pattern = "structured"
+extrude = {{ from = 0.0, to = 0.02, layers = 1 }}
+[[coupling]]
+name = "rim"
+group = "outer_edge"
+type = "averaging"
+[[support]]
+group = "rim"
+dofs = ["x", "y", "rz"]
+[[support]]
+group = "bottom_face"
+dofs = ["z"]
+[[support]]
+group = "top_face"
+dofs = ["z"]
+[[load]]
+type = "pressure"
+group = "inner_edge"
+pressure = 1e6
+[static]
+report = ["inner_edge"]
+"""
+    scene += MATERIAL.format(group="disc", count=1, **IRON).replace("[modes]\ncount = 1\n", "")
+    nu, p, a, b = IRON["poisson"], 1e6, 0.05, 0.1
+    around = p * (a**2 + b**2) / (b**2 - a**2)
+    outward = p * a / IRON["young"] * (1 + nu) * (a**2 * (1 - 2 * nu) + b**2) / (b**2 - a**2)
+    for order, most in ((2, 3e-2), (3, 2e-3)):
+        (folder / "cylinder.toml").write_text(scene.format(order=order))
+        found = summary(programs / "chladni", "static", folder / "cylinder.toml", "--output", folder, "--overwrite")
+        nodes = found["motions"]["inner_edge"]
+        off = 0.0
+        for node in nodes:
+            x, y = node["motion"][:2]
+            c, s = x / math.hypot(x, y), y / math.hypot(x, y)
+            xx, yy, zz, xy, *_ = node["stress_Pa"]
+            radial, hoop = c * c * xx + s * s * yy + 2 * c * s * xy, s * s * xx + c * c * yy - 2 * c * s * xy
+            off = max(off, abs(radial + p) / around, abs(hoop / around - 1), abs(zz - nu * (around - p)) / around,
+                      abs(math.hypot(x, y) / outward - 1))  # fmt: skip
+        equivalent = math.sqrt(((around + p) ** 2 + (around - nu * (around - p)) ** 2 + (p + nu * (around - p)) ** 2) / 2)
+        off = max(off, abs(found["largest_von_mises_Pa"] / equivalent - 1))
+        print(f"thick cylinder, order {order}: {off:.1e}")
+        if not off < most:
+            yield f"thick cylinder of order {order}: off by {off:.1e}"
+
+
 REFUSED = {
     'type = "solid"|type = "shell"\nthickness = 0.02': "`extrude` makes solids",
     '[modes]|[model]\ndofs = ["z", "rx", "ry"]\n[modes]': "no other DOF",
@@ -357,9 +432,15 @@ def rings_on_faces(programs, folder, mpirun):
     modes = scene[', on = "face", width = 0.03']
     modes = modes[: modes.index("[interface]")] + support
     plain = modes[: modes.index("rings = [")] + modes[modes.index("[material.iron]") :]
-    (_, with_rings), (_, without) = frequencies(programs, folder, modes), frequencies(programs, folder, plain)
-    if not error(with_rings, without) < 1e-9:  # the same space in another basis
-        yield f"rings change the frequencies of the mesh: {with_rings}, without {without}"
+    (folder / "foreign.geo").write_text(FOREIGN_GEO.replace("0.014", "0.03"))
+    found = []
+    for text in (modes, plain):
+        (folder / "scene.toml").write_text(text + "mesh_errors = true\n")
+        found.append(summary(programs / "chladni", "modes", folder / "scene.toml", "--output", folder, "--overwrite"))
+    for key, most in (("frequencies_Hz", 1e-9), ("errors_of_mesh", 1e-5)):  # the same space in another basis
+        with_rings, without = (one[key] for one in found)
+        if not max(abs(a / b - 1.0) for a, b in zip(with_rings, without)) < most:
+            yield f"rings change the {key} of the mesh: {with_rings}, without {without}"
 
 
 def few_ring_nodes(programs, folder):
@@ -382,6 +463,8 @@ def failures(programs, mpirun, folder):
     yield from annulus(programs, folder, 6e-3, 0.0209, 2, 2, "triangles")
     yield from sphere(programs, folder, mpirun)
     yield from loads(programs, folder)
+    yield from mesh_errors(programs, folder)
+    yield from thick_cylinder(programs, folder)
     yield from refusals(programs, folder)
     yield from no_volume(programs, folder)
     yield from formats(programs, folder)

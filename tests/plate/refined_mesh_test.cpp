@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
+#include "mesh/element_types.hpp"
+#include "mesh/extrude.hpp"
 #include "mesh/generators.hpp"
+#include "plate/elements/solid_element.hpp"
 
 namespace chladni::plate {
 namespace {
@@ -134,6 +138,127 @@ TEST(RefinedMesh, KnowsWhichElementsHaveANextOrder)
   EXPECT_FALSE(can_rise(disc(mesh::Pattern::triangles, 3)));
   const RefinedMesh higher = refined(disc(mesh::Pattern::structured, 3), {.parts = 1, .order = 4});
   EXPECT_LT(off_circle(higher.mesh, "outer_edge", 0.2), 1e-12);
+}
+
+/// The unit cube as six tetrahedra of order 2 around a diagonal, with the group "base" of its face
+/// z = 0.
+mesh::Mesh tetrahedra()
+{
+  mesh::Mesh mesh;
+  mesh.blocks.push_back({.shape = mesh::Shape::tetrahedron, .order = 2, .nodes_per_element = 10});
+  mesh::ElementBlock& block = mesh.blocks.front();
+  const auto node_at = [&](const mesh::Vector& x) {
+    const auto found = std::ranges::find(mesh.positions, x);
+    if (found != mesh.positions.end()) return static_cast<int>(found - mesh.positions.begin());
+    mesh.node_numbers.push_back(mesh.n_nodes() + 1);
+    mesh.positions.push_back(x);
+    return mesh.n_nodes() - 1;
+  };
+  const std::array<mesh::Vector, 8> corners{{{0.0, 0.0, 0.0},
+                                             {1.0, 0.0, 0.0},
+                                             {1.0, 1.0, 0.0},
+                                             {0.0, 1.0, 0.0},
+                                             {0.0, 0.0, 1.0},
+                                             {1.0, 0.0, 1.0},
+                                             {1.0, 1.0, 1.0},
+                                             {0.0, 1.0, 1.0}}};
+  const std::array<std::size_t, 7> around{1, 2, 3, 7, 4, 5, 1};
+  for (std::size_t k = 0; k < 6; ++k) {
+    const std::array<mesh::Vector, 4> at{corners[0], corners[around[k]], corners[around[k + 1]],
+                                         corners[6]};
+    for (const auto& [r, s, t] : mesh::solid_nodes(mesh::Shape::tetrahedron, 2)) {
+      mesh::Vector x{};
+      for (std::size_t c = 0; c < 3; ++c)
+        x[c] = (1.0 - r - s - t) * at[0][c] + r * at[1][c] + s * at[2][c] + t * at[3][c];
+      block.nodes.push_back(node_at(x));
+    }
+    block.numbers.push_back(static_cast<std::int64_t>(k) + 1);
+    block.group.push_back(-1);
+  }
+  mesh.groups.push_back({.name = "base", .dimension = 0, .nodes = {}});
+  for (int node = 0; node < mesh.n_nodes(); ++node)
+    if (mesh.positions[static_cast<std::size_t>(node)][2] == 0.0)
+      mesh.groups.back().nodes.push_back(node);
+  return mesh;
+}
+
+mesh::Mesh solids(mesh::Pattern pattern, int order)
+{
+  const mesh::Mesh flat = mesh::rectangle({.length = 1.0,
+                                           .width = 1.0,
+                                           .element_size = 0.5,
+                                           .element_order = order,
+                                           .pattern = pattern});
+  mesh::Mesh mesh = mesh::extruded(flat, {.from = 0.0, .to = 1.0}, {});
+  for (mesh::Group& group : mesh.groups)
+    if (group.name == "bottom_face") group.name = "base";
+  return mesh;
+}
+
+/// The volume of the elements, none of which has a Jacobian that is not positive.
+double volume(const mesh::Mesh& mesh)
+{
+  double sum = 0.0;
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    for (int e = 0; e < block.n_elements(); ++e) {
+      NodeVectors x(block.nodes_per_element, 3);
+      for (Eigen::Index i = 0; i < x.rows(); ++i) {
+        const int node = block.element_nodes(e)[static_cast<std::size_t>(i)];
+        x.row(i) = Eigen::RowVector3d(mesh.positions[static_cast<std::size_t>(node)].data());
+      }
+      const Eigen::VectorXd dV = solid_frame(block.shape, block.order, x).dV;
+      EXPECT_GT(dV.minCoeff(), 0.0);
+      sum += dV.sum();
+    }
+  }
+  return sum;
+}
+
+/// x^i y^j z^k of a degree up to n at the nodes, as displacements along z.
+Eigen::MatrixXd polynomials(const mesh::Mesh& mesh, int n)
+{
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(6 * mesh.n_nodes(), (n + 1) * (n + 1) * (n + 1));
+  for (int node = 0; node < mesh.n_nodes(); ++node) {
+    const auto& x = mesh.positions[static_cast<std::size_t>(node)];
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; i + j <= n; ++j)
+        for (int k = 0; i + j + k <= n; ++k) {
+          motions(6 * node + 2, (i * (n + 1) + j) * (n + 1) + k) =
+              std::pow(x[0], i) * std::pow(x[1], j) * std::pow(x[2], k);
+        }
+  }
+  return motions;
+}
+
+TEST(RefinedMesh, HoldsWhatSolidsHold)
+{
+  const std::vector<std::pair<mesh::Mesh, Refinement>> all{
+      {tetrahedra(), {.parts = 2, .order = 2}},
+      {solids(mesh::Pattern::triangles, 2), {.parts = 2, .order = 2}},
+      {solids(mesh::Pattern::structured, 1), {.parts = 2, .order = 1}},
+      {solids(mesh::Pattern::structured, 2), {.parts = 2, .order = 2}},
+      {solids(mesh::Pattern::structured, 3), {.parts = 2, .order = 3}},
+      {solids(mesh::Pattern::structured, 1), {.parts = 1, .order = 2}},
+      {solids(mesh::Pattern::structured, 2), {.parts = 1, .order = 3}}};
+  for (const auto& [coarse, how] : all) {
+    const int order = coarse.blocks.front().order;
+    const RefinedMesh fine = refined(coarse, how);
+    SCOPED_TRACE(testing::Message() << "shape " << int(coarse.blocks.front().shape) << ", order "
+                                    << order << " to " << how.order);
+    EXPECT_NEAR(volume(fine.mesh), 1.0, 1e-12);
+    // Neighbours have their nodes in common: no other face is free.
+    const std::size_t n_parts = how.parts == 2 ? 4 : 1;
+    EXPECT_EQ(mesh::free_faces(fine.mesh).size(), n_parts * mesh::free_faces(coarse).size());
+    std::set<std::vector<std::int64_t>> places;
+    for (const auto& x : fine.mesh.positions)
+      places.insert({std::lround(1e6 * x[0]), std::lround(1e6 * x[1]), std::lround(1e6 * x[2])});
+    EXPECT_EQ(places.size(), fine.mesh.positions.size());
+    const Eigen::MatrixXd found = interpolated(coarse, fine, polynomials(coarse, order));
+    EXPECT_LT((found - polynomials(fine.mesh, order)).cwiseAbs().maxCoeff(), 1e-13);
+    std::size_t n_base = 0;
+    for (const auto& x : fine.mesh.positions) n_base += std::abs(x[2]) < 1e-12 ? 1 : 0;
+    EXPECT_EQ(mesh::find_group(fine.mesh, "base").nodes.size(), n_base);
+  }
 }
 
 }  // namespace
