@@ -36,6 +36,13 @@ std::vector<MidLine> generated_lines(const Table& root, const Scene& scene)
   const auto line = [&](const Vector2d& from, const Vector2d& to, const char* group) {
     return MidLine{.from = from, .to = to, .thickness = thickness_of(root, scene, group)};
   };
+  if (const auto& disc = scene.mesh.annulus; disc && scene.mesh.extrude) {
+    const auto& [from, to, layers] = *scene.mesh.extrude;
+    const double middle = 0.5 * (from + to);
+    return {{.from = {disc->inner_radius, middle},
+             .to = {disc->outer_radius, middle},
+             .thickness = to - from}};
+  }
   if (const auto& disc = scene.mesh.annulus)
     return {line({disc->inner_radius, 0.0}, {disc->outer_radius, 0.0}, "disc")};
   if (const auto& hat = scene.mesh.hat_disc) {

@@ -110,7 +110,6 @@ void refuse_beside_solids(const Table& root, const Scene& scene)
                 "of solids does not tell how far the mesh lets the faces of [squeal] move "
                 "otherwise; give [mesh] element_size, and compare with a finer mesh");
   }
-  }
 }
 
 /// What needs elements.

@@ -19,7 +19,7 @@ namespace {
 /// A node of the picture in cylindrical coordinates, and where it belongs.
 struct Sample {
   Place place;
-  double angle;
+  double angle, radius;
   Index node;
 };
 
@@ -43,7 +43,7 @@ Samples samples_of(const mbs_export::Picture& picture, const std::vector<MidLine
     const MidLine& line = lines[std::size_t(place.line)];
     const double distance = (line.from + place.s * line.tangent() - rz).norm();
     if (distance <= 0.51 * line.thickness) {
-      samples.of_line[std::size_t(place.line)].push_back({place, std::atan2(x[1], x[0]), i});
+      samples.of_line[std::size_t(place.line)].push_back({place, std::atan2(x[1], x[0]), rz[0], i});
     } else if (lies_between(lines, rz)) {
       ++samples.inner;
     } else {
@@ -83,6 +83,48 @@ MatrixXd design(const std::vector<Sample>& samples, const std::vector<int>& harm
     }
   }
   return A;
+}
+
+/// dw/ds and dw/dphi at samples, [n_samples x n_modes].
+struct Slopes {
+  MatrixXd along, around;
+};
+
+/// @param w  coefficients of a function as `design` has them
+Slopes slopes(const std::vector<Sample>& samples, const std::vector<int>& harmonics,
+              const Splines& splines, const MatrixXd& w)
+{
+  const auto n = static_cast<Index>(samples.size());
+  Slopes found{MatrixXd::Zero(n, w.cols()), MatrixXd::Zero(n, w.cols())};
+  const Index n_splines = splines.size();
+  for (Index k = 0; k < n; ++k) {
+    const Sample& sample = samples[std::size_t(k)];
+    const Eigen::RowVectorXd B = splines.values(sample.place.s),
+                             B_s = splines.slopes(sample.place.s);
+    for (std::size_t i = 0; i < harmonics.size(); ++i) {
+      const double phase = harmonics[i] * sample.angle, c = std::cos(phase), s = std::sin(phase);
+      const auto cosine = w.middleRows(2 * Index(i) * n_splines, n_splines);
+      const auto sine = w.middleRows((2 * Index(i) + 1) * n_splines, n_splines);
+      found.along.row(k) += B_s * (c * cosine + s * sine);
+      found.around.row(k) += harmonics[i] * (B * (c * sine - s * cosine));
+    }
+  }
+  return found;
+}
+
+/// Of nodes at a distance zeta from the middle line, the displacement of its point: u + zeta grad
+/// w.
+void take_to_middle(std::array<MatrixXd, 3>& u, const std::vector<Sample>& samples,
+                    const MidLine& line, const Slopes& of_w)
+{
+  const Vector2d t = line.tangent();
+  for (Index k = 0; k < u[0].rows(); ++k) {
+    const Sample& sample = samples[std::size_t(k)];
+    const double zeta = sample.place.zeta, r = sample.radius;
+    u[0].row(k) += zeta * t[0] * of_w.along.row(k);
+    u[2].row(k) += zeta * t[1] * of_w.along.row(k);
+    if (r > 0.0) u[1].row(k) += zeta / r * of_w.around.row(k);
+  }
 }
 
 /// u_r, u_t, u_z of the samples, [n_samples x n_modes] each.
@@ -149,7 +191,13 @@ SurfaceMotion::SurfaceMotion(const mbs_export::ModalBody& body, const ThickBody&
     const MatrixXd A = design(samples[i], harmonics_, line.splines);
     const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(A);
     check_rank(mid_[i], n, solver.rank(), A.cols() - (has_mean ? line.splines.size() : 0));
-    const auto u = cylindrical(picture, samples[i], modes);
+    auto u = cylindrical(picture, samples[i], modes);
+    const auto is_beside = [](const Sample& one) { return one.place.zeta != 0.0; };
+    if (std::ranges::any_of(samples[i], is_beside)) {
+      const Vector2d nu = mid_[i].normal();
+      const MatrixXd w = solver.solve(nu[0] * u[0] + nu[1] * u[2]);
+      take_to_middle(u, samples[i], mid_[i], slopes(samples[i], harmonics_, line.splines, w));
+    }
     for (std::size_t d = 0; d < 3; ++d) {
       line.coefficients[d] = solver.solve(u[d]);
       rest += (A * line.coefficients[d] - u[d]).colwise().squaredNorm().transpose();

@@ -34,7 +34,8 @@ enum class Parity { cosine, sine };
 
 /// Displacement of the modes on the body's surface. The displacements at the nodes of the body's
 /// picture are fitted by splines along each middle line and Fourier series around the axis;
-/// material normals remain normal to the middle surface. Nodes that belong to no piece of the
+/// material normals remain normal to the middle surface, and nodes of solids beside it are fitted
+/// by what their normal has there. Nodes that belong to no piece of the
 /// middle surface but lie between two, such as those of vanes, are inner nodes: they do not
 /// radiate.
 class SurfaceMotion {

@@ -62,6 +62,39 @@ TEST(SurfaceMotion, FollowsTheModeOfTheDisc)
   EXPECT_LT(c.col(1).cwiseAbs().maxCoeff(), 1e-9);
 }
 
+/// The disc as a solid, of which the picture has the upper face alone.
+mbs_export::ModalBody solid_body()
+{
+  mbs_export::ModalBody body = testing::thesis_body();
+  const double zeta = 0.5 * testing::disc_thickness, scale = 1.0 / std::sqrt(testing::modal_mass);
+  mbs_export::Picture& picture = body.picture;
+  for (Eigen::Index i = 0; i < picture.positions.rows(); ++i) {
+    const double x = picture.positions(i, 0), y = picture.positions(i, 1), r = std::hypot(x, y);
+    const double phi = std::atan2(y, x);
+    picture.positions(i, 2) = zeta;
+    const Eigen::RowVector2d waves(std::cos(3.0 * phi), std::sin(3.0 * phi)),
+        turned(-waves[1], waves[0]);
+    const Eigen::RowVector2d u_r = -zeta * scale * testing::slope(r) * waves,
+                             u_t = -zeta * scale * 3.0 / r * testing::deflection(r) * turned;
+    picture.transformation.row(3 * i) = (x * u_r - y * u_t) / r;
+    picture.transformation.row(3 * i + 1) = (y * u_r + x * u_t) / r;
+  }
+  return body;
+}
+
+TEST(SurfaceMotion, OfASolidIsThatOfItsMiddle)
+{
+  const ThickBody thick = thick_body(disc_line, Hub::closed);
+  const SurfaceMotion plate(testing::thesis_body(), thick, {0, 1}, {3});
+  const SurfaceMotion solid(solid_body(), thick, {0, 1}, {3});
+  EXPECT_LT(solid.residual().maxCoeff(), 1e-3);
+  EXPECT_TRUE(solid.antisymmetric());
+  const BodySurface surface = surface_of(thick.outline, true);
+  const Eigen::MatrixXd w = plate.on_meridian(surface, 0, Parity::cosine);
+  // What the splines leave out of the slopes at the hub, times half the thickness.
+  EXPECT_LT((solid.on_meridian(surface, 0, Parity::cosine) - w).norm(), 1e-3 * w.norm());
+}
+
 TEST(SurfaceMotion, OfTheClosedHubIsZero)
 {
   const ThickBody thick = thick_body(disc_line, Hub::closed);
