@@ -72,6 +72,23 @@ def calculix(found):
             f"ccx, which has no shear correction, against the plate without it: {error(ccx, 'plate_kappa_1')}"]
 
 
+def solids(found):
+    def case(run):
+        own, ccx = run["programs"]["chladni modes"], run["programs"]["ccx"]
+        scipy = run["programs"].get("scipy")
+        return (f"{run['modes']} modes of {run['dofs']:,} DOFs: {usage(own)}; ccx {usage(ccx)}, {ccx['cpu_s'] / own['cpu_s']:.1f} times the CPU time" +
+                (f", scipy {scipy['cpu_s'] / own['cpu_s']:.1f} times" if scipy else ""))
+
+    far = max(p["from_chladni"] for run in found["runs"] for p in run["programs"].values())
+    return [*map(case, found["runs"]), f"frequencies of the three programs differ by at most {far:.0e} on one mesh"]
+
+
+def solid_disc(found):
+    shell, solid = found["shell"], found["solid"]
+    return [f"critical speed of the pair with three nodal diameters: {shell['critical_speed']:.3f} rad/s as a shell, {solid['critical_speed']:.3f} as a solid",
+            f"its frequency: {shell['pair_Hz']:.1f} and {solid['pair_Hz']:.1f} Hz"]
+
+
 def body(found):
     last = [c for c in found["chain"] if c["n_FE"] == 500][0]
     with_five = {name: [next(r for r in rows if (r["n_h"], r["omega0_over_omega_1"]) == (5, ratio))["Q"] for ratio in (None, 0.5)]
@@ -198,7 +215,7 @@ def response_modes(found):
 
 MAKERS = {"elements": elements, "scale": scale, "ranks": ranks, "methods": methods, "rings": rings, "sectors": sectors,
           "many-modes": many_modes, "response-modes": response_modes, "accuracy": accuracy, "peers": peers, "calculix": calculix,
-          "body": body, "squeal": squeal, "sound": sound, "end-to-end": end_to_end,
+          "solids": solids, "solid-disc": solid_disc, "body": body, "squeal": squeal, "sound": sound, "end-to-end": end_to_end,
           "scenes": scenes}
 
 
