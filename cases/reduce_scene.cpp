@@ -13,7 +13,6 @@
 #include "cases/picture.hpp"
 #include "cases/possible_sector.hpp"
 #include "cases/ranks.hpp"
-#include "cases/reduce_sectors.hpp"
 #include "cases/scene_support.hpp"
 #include "cases/section_forces.hpp"
 #include "common/eigen_every.hpp"

@@ -51,6 +51,16 @@ mbs_export::Provenance provenance(const scene::Scene& scene, const SaidOfSolvers
 ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solvers,
                            const ReduceProgress& progress);
 
+struct MeshedScene;
+
+/// Reduces a scene with one sector meshed, harmonic by harmonic; the ranks share the harmonics. The
+/// reduced system is that of the whole body: its masters are the DOFs of nodes on the axis and the
+/// harmonics of rings, its modes come in exact pairs.
+/// @note   Collective on all ranks.
+/// @throws chladni::Error on all ranks alike, also for what is not implemented for sectors.
+ReduceSummary reduce_sectors(const scene::Scene& scene, MeshedScene meshed,
+                             const linear::SolverOptions& solver, Phases& phases);
+
 /// The phases of a reduction in their order, with their usual share of the time, per cent.
 std::vector<report::Stage> stages_of(const reduce::ReduceOptions& wanted);
 

@@ -1,4 +1,4 @@
-#include "cases/reduce_sectors.hpp"
+#include "cases/reduce_scene.hpp"
 
 #include <fmt/format.h>
 #include <mpi.h>
