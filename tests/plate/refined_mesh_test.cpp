@@ -182,7 +182,7 @@ mesh::Mesh tetrahedra()
   return mesh;
 }
 
-mesh::Mesh solids(mesh::Pattern pattern, int order)
+mesh::Mesh extruded_square(mesh::Pattern pattern, int order)
 {
   const mesh::Mesh flat = mesh::rectangle({.length = 1.0,
                                            .width = 1.0,
@@ -234,16 +234,16 @@ TEST(RefinedMesh, HoldsWhatSolidsHold)
 {
   const std::vector<std::pair<mesh::Mesh, Refinement>> all{
       {tetrahedra(), {.parts = 2, .order = 2}},
-      {solids(mesh::Pattern::triangles, 2), {.parts = 2, .order = 2}},
-      {solids(mesh::Pattern::structured, 1), {.parts = 2, .order = 1}},
-      {solids(mesh::Pattern::structured, 2), {.parts = 2, .order = 2}},
-      {solids(mesh::Pattern::structured, 3), {.parts = 2, .order = 3}},
-      {solids(mesh::Pattern::structured, 1), {.parts = 1, .order = 2}},
-      {solids(mesh::Pattern::structured, 2), {.parts = 1, .order = 3}}};
+      {extruded_square(mesh::Pattern::triangles, 2), {.parts = 2, .order = 2}},
+      {extruded_square(mesh::Pattern::structured, 1), {.parts = 2, .order = 1}},
+      {extruded_square(mesh::Pattern::structured, 2), {.parts = 2, .order = 2}},
+      {extruded_square(mesh::Pattern::structured, 3), {.parts = 2, .order = 3}},
+      {extruded_square(mesh::Pattern::structured, 1), {.parts = 1, .order = 2}},
+      {extruded_square(mesh::Pattern::structured, 2), {.parts = 1, .order = 3}}};
   for (const auto& [coarse, how] : all) {
     const int order = coarse.blocks.front().order;
     const RefinedMesh fine = refined(coarse, how);
-    SCOPED_TRACE(testing::Message() << "shape " << int(coarse.blocks.front().shape) << ", order "
+    SCOPED_TRACE(::testing::Message() << "shape " << int(coarse.blocks.front().shape) << ", order "
                                     << order << " to " << how.order);
     EXPECT_NEAR(volume(fine.mesh), 1.0, 1e-12);
     // Neighbours have their nodes in common: no other face is free.
