@@ -38,6 +38,7 @@ count = 16
 nodes = ["upper", "lower", "hub"]
 
 [reduce]
+method = "craig-bampton"
 modes = 10
 
 [body]
@@ -174,7 +175,7 @@ def own_matrices(programs, folder, disc):
     """In N/mm and t, by the nodes in the order of their numbers."""
     lone = folder / "free.toml"
     text = SCENE.format(name="free", mesh="disc.inp", matrices="", sections=IRON, ring=N_RING)
-    lone.write_text(text[: text.index("[[coupling]]")] + '[interface]\nnodes = ["upper"]\n[reduce]\nmodes = 2\n')
+    lone.write_text(text[: text.index("[[coupling]]")] + '[interface]\nnodes = ["upper"]\n[reduce]\nmethod = "craig-bampton"\nmodes = 2\n')
     run(programs / "chladni", "reduce", lone, "--output", folder, "--",
         "-cms_view_stiffness", f"binary:{folder}/K", "-cms_view_mass", f"binary:{folder}/M")  # fmt: skip
     rows = [(node, c) for node in sorted(disc.number.values()) for c in (1, 2, 3)]

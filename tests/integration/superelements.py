@@ -42,6 +42,7 @@ type = "rigid"
 nodes = ["last_edge", "pin"]
 
 [reduce]
+method = "craig-bampton"
 modes = 5
 
 [body]
