@@ -244,7 +244,7 @@ TEST(RefinedMesh, HoldsWhatSolidsHold)
     const int order = coarse.blocks.front().order;
     const RefinedMesh fine = refined(coarse, how);
     SCOPED_TRACE(::testing::Message() << "shape " << int(coarse.blocks.front().shape) << ", order "
-                                    << order << " to " << how.order);
+                                      << order << " to " << how.order);
     EXPECT_NEAR(volume(fine.mesh), 1.0, 1e-12);
     // Neighbours have their nodes in common: no other face is free.
     const std::size_t n_parts = how.parts == 2 ? 4 : 1;
