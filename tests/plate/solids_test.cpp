@@ -319,15 +319,15 @@ mesh::Mesh solid_annulus(const std::vector<mesh::RingOptions>& track = {})
   return mesh::extruded(flat, {.from = -0.01, .to = 0.01}, track);
 }
 
-const std::vector<SolidSection> disc{{.group = "disc", .material = testing::material}};
+const std::vector<SolidSection> of_annulus{{.group = "disc", .material = testing::material}};
 
 TEST(Solids, AreTheSameInTheHarmonicsOfARing)
 {
   const mesh::Mesh mesh = solid_annulus({{.name = "track", .radius = 0.13, .nodes = 12}});
   const std::vector<RingHarmonics> rings{{"track", 3}};
-  const System plain = assemble(mesh, {.solids = disc}, map_of(mesh, {}), PETSC_COMM_WORLD);
+  const System plain = assemble(mesh, {.solids = of_annulus}, map_of(mesh, {}), PETSC_COMM_WORLD);
   const System harmonic =
-      assemble(mesh, {.solids = disc}, dofs_of(mesh, {.rings = rings}), PETSC_COMM_WORLD);
+      assemble(mesh, {.solids = of_annulus}, dofs_of(mesh, {.rings = rings}), PETSC_COMM_WORLD);
   ASSERT_EQ(plain.dofs.n_dofs(), harmonic.dofs.n_dofs());
   expect_same_energies(plain, harmonic, random_motion(harmonic));
   EXPECT_EQ(harmonic.dofs.harmonic_dof(harmonic.dofs.harmonic_rings()[0], 2, 3), std::nullopt);
@@ -355,11 +355,12 @@ TEST(Solids, AreTheSameWithRingsOnTheirFaces)
   const mesh::Mesh without = solid_annulus(), mesh = with_rings_on_faces(without);
   const std::vector<Coupling> pad{average("pad", "top_face")};
   const std::vector<RingHarmonics> both{{"upper", 5}, {"lower", 2}};
-  const System plain = assemble(without, {.solids = disc}, map_of(without, {}), PETSC_COMM_WORLD);
+  const System plain =
+      assemble(without, {.solids = of_annulus}, map_of(without, {}), PETSC_COMM_WORLD);
   for (const Kinematics& kinematics :
        {Kinematics{}, Kinematics{.rings = both}, Kinematics{.couplings = pad, .rings = both}}) {
     const System system =
-        assemble(mesh, {.solids = disc}, dofs_of(mesh, kinematics), PETSC_COMM_WORLD);
+        assemble(mesh, {.solids = of_annulus}, dofs_of(mesh, kinematics), PETSC_COMM_WORLD);
     ASSERT_EQ(plain.dofs.n_dofs(), system.dofs.n_dofs());
     const petsc::Vector q = random_motion(system);
     expect_same_energies(plain, system, q);
@@ -380,7 +381,7 @@ TEST(Solids, AreTheSameWithRingsOnTheirFaces)
 TEST(Solids, KeepTheirRigidMotionsWithRingsOnTheirFaces)
 {
   const mesh::Mesh mesh = with_rings_on_faces(solid_annulus());
-  const System system = assemble(mesh, {.solids = disc}, dofs_of(mesh, {}), PETSC_COMM_WORLD);
+  const System system = assemble(mesh, {.solids = of_annulus}, dofs_of(mesh, {}), PETSC_COMM_WORLD);
   EXPECT_FALSE(system.dofs.has_combined_motions());
   const petsc::Matrix R = rigid_motions(system);
   petsc::Matrix K_R;
