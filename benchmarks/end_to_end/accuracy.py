@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 """Does every scene that asks for an accuracy get it, what does it cost, and how near is the error that is told to the true one?
 
-usage: accuracy.py [--quick] [--programs DIR] [--only NAME ...] OUTPUT
+usage: accuracy.py [--quick] [--programs DIR] [--only NAME ...] [--errors ERROR ...] OUTPUT
 
 Each geometry of accuracy_scenes.py is asked for three errors. Its frequencies are compared with those of a finer mesh by `chladni modes`, or
-with closed forms: all of the range, by their place in the order. Writes OUTPUT/accuracy.json and .md. With --quick a few geometries
-with one error are tried, and nothing is written. Ends with an error where an accuracy is not kept.
+with closed forms: all of the range, by their place in the order. Writes OUTPUT/accuracy.json and .md. With --only or --errors the others stay as they were. With --quick a few of
+these are tried, and none may be refused; without OUTPUT nothing is written. Ends with an error where an accuracy is not kept.
 """
 import argparse
 import json
@@ -23,7 +23,8 @@ from accuracy_scenes import GEOMETRIES
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ERRORS = (1e-2, 1e-3, 1e-4)
-QUICK = ("disc on a hub", "cantilever plate", "plate, edges loaded", "one of twelve sectors", "cantilever beam", "plate of a .msh", "plate of a deck")
+QUICK = {1e-2: ("disc on a hub", "cantilever plate", "plate, edges loaded", "one of twelve sectors", "cantilever beam",
+                "plate of a .msh", "plate of a deck")}
 MOST_CPU_S = 120
 
 
@@ -84,10 +85,10 @@ def judged(row, true_Hz, up_to_Hz):
     return {**row, "true": float(true.max()), "told": float(told[:in_range].max()), "modes": in_range}
 
 
-def measured(programs, names, errors, keep=lambda rows: None):
-    """Rows of all geometries; the largest error of all of them first. Each is kept when it is there."""
+def measured(programs, wanted, keep=lambda rows: None):
+    """Rows of the geometries that are wanted for each error. Each is kept when it is there."""
     rows, true_Hz = [], {}
-    for error in errors:
+    for error, names in wanted.items():
         for name in names:
             geometry = GEOMETRIES[name]
             with tempfile.TemporaryDirectory() as folder:
@@ -127,6 +128,9 @@ def page(rows):
     for row in given:
         lines.append(f"| {row['geometry']} | {row['asked']:.0e} | {row['true']:.1e} | {row['told']:.1e} | {told_over_true(row):.2g} | "
                      f"{'yes' if row['true'] <= row['asked'] else '**no**'} | {row['modes']} | {row['dofs']} | {row['cpu_s']:.1f} | {row['judge']} |")
+    missing = [f"{name} at {error:.0e}" for name in GEOMETRIES for error in ERRORS if (name, error) not in {(row["geometry"], row["asked"]) for row in rows}]
+    if missing:
+        lines += ["", f"Not tried yet: {', '.join(missing)}."]
     lines += ["", "## Refused", "", "| geometry | asked | CPU, s | why |", "| --- | --- | --- | --- |"]
     lines += [f"| {row['geometry']} | {row['asked']:.0e} | {row['cpu_s']:.1f} | {row['refused']} |" for row in rows if "refused" in row]
     lines += ["", "## What was chosen", "", "| geometry | asked | mesh |", "| --- | --- | --- |"]
@@ -139,20 +143,25 @@ def main():
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build/release/bin")
     parser.add_argument("--only", nargs="+", default=[], metavar="NAME")
+    parser.add_argument("--errors", nargs="+", type=float, default=ERRORS, metavar="ERROR")
     parser.add_argument("output", type=pathlib.Path, nargs="?")
     wanted = parser.parse_args()
     if wanted.output is None and not wanted.quick:
         parser.error("where shall the page go? Name OUTPUT")
-    names = wanted.only or (QUICK if wanted.quick else list(GEOMETRIES))
+    asked = QUICK if wanted.quick else {error: wanted.only or list(GEOMETRIES) for error in wanted.errors}
+    path = wanted.output / "accuracy.json" if wanted.output else None
+    known = json.loads(path.read_text())["rows"] if path and path.exists() and (wanted.only or wanted.errors != ERRORS) else []
+    others = [row for row in known if row["geometry"] not in asked.get(row["asked"], ())]
 
     def keep(rows):
         if wanted.output is None:
             return
+        rows = sorted(others + rows, key=lambda row: (list(GEOMETRIES).index(row["geometry"]), -row["asked"]))
         wanted.output.mkdir(parents=True, exist_ok=True)
         (wanted.output / "accuracy.json").write_text('{"rows": [\n' + ",\n".join(map(json.dumps, rows)) + "\n]}\n")
-        (wanted.output / "accuracy.md").write_text(page(sorted(rows, key=lambda row: list(GEOMETRIES).index(row["geometry"]))))
+        (wanted.output / "accuracy.md").write_text(page(rows))
 
-    rows = measured(wanted.programs.resolve(), names, (1e-2,) if wanted.quick else ERRORS, keep)
+    rows = measured(wanted.programs.resolve(), asked, keep)
     for row in failures(rows):
         print(f"accuracy.py: FAILED: {row['geometry']} at {row['asked']}: the true error is {row['true']:.2e}")
     refused = [row for row in rows if "refused" in row and wanted.quick]
