@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <map>
 #include <optional>
 
+#include "linear/dense/dense_solvers.hpp"
 #include "mbs_export/attachment_dofs.hpp"
 #include "mbs_export/body_options.hpp"
 #include "mbs_export/held_modes.hpp"
@@ -163,7 +163,7 @@ MatrixXd spread_out(const ReducedSystem& reduced, const std::vector<int>& nodes)
   for (Index i = 0; i < X.rows(); ++i)
     X.row(i) = reduced.attachment_nodes[std::size_t(nodes[std::size_t(i)])].position.transpose();
   X.rowwise() -= X.colwise().mean().eval();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(X.transpose() * X);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(MatrixXd(X.transpose() * X));
   X *= axes.eigenvectors().rowwise().reverse();
   const VectorXd extents = X.cwiseAbs().colwise().maxCoeff();
   if (!(extents[0] > 0.0)) return MatrixXd(X.rows(), 0);
