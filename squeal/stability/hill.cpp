@@ -222,7 +222,10 @@ class Orbit {
   Flag motions() const
   {
     Square<G> product = Square<G>::Identity(g_, g_);
-    for (const Square<G>& step : steps_) product = (step * product).eval();
+    for (const Square<G>& step : steps_) {
+      product = (step * product).eval();
+      product /= product.cwiseAbs().maxCoeff();  // growth over a slow rotation has no limit
+    }
     const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver{Eigen::MatrixXcd(product)};
     std::vector<Index> order(static_cast<std::size_t>(g_));
     std::iota(order.begin(), order.end(), Index{0});
@@ -317,6 +320,12 @@ GroupExponents integrated(const NearGroup& group, double step)
   }
   GroupExponents result{Eigen::VectorXcd(g),
                         std::max({change, chance * unsettled, step * flag.error})};
+  if (!flag.exponent.allFinite() || !std::isfinite(result.error)) {
+    throw Error(fmt::format(
+        "stability over a rotation: at {:.6g} rad/s (speed times the symmetry of the disc) the "
+        "exponents of {} states that act on each other are not finite; change the speed a little",
+        step, g));
+  }
   for (Index i = 0; i < g; ++i) {
     const double replica = std::round(flag.frequency[i] - flag.exponent[i].imag());
     result.lambda[i] = step * (F.mean + flag.exponent[i] + Complex(0.0, replica));

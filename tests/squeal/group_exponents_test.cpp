@@ -50,6 +50,21 @@ TEST(GroupExponents, OfVectorsThatMeetAreWithinTheErrorThatIsTold)
   }
 }
 
+TEST(GroupExponents, OfMotionsFarApartOverASlowRotation)
+{
+  // Over a rotation of 6 s one grows by exp(1500) against the mean, the other decays by as much.
+  constexpr double step = 1.0;
+  NearGroup group{{0, 1}, true, AngleHarmonics::Zero(4, 8), 1, 0.0};
+  group.F.col(0) << Complex(-20.0, 300.0), 0.0, 0.0, Complex(-520.0, 300.0);
+  group.F.col(1)[1] = group.F.col(7)[2] = 5.0;
+  const GroupExponents found = group_exponents(group, step);
+  // Of the second order: 25 / (500 -+ i step).
+  Eigen::VectorXd growth = found.lambda.real();
+  std::ranges::sort(growth);
+  EXPECT_NEAR(growth[0], -520.0 - 25.0 * 500.0 / (500.0 * 500.0 + 1.0), 1e-4);
+  EXPECT_NEAR(growth[1], -20.0 + 25.0 * 500.0 / (500.0 * 500.0 + 1.0), 1e-4);
+}
+
 TEST(GroupExponents, AreRefusedWhereTheirStepsWouldFillTheMemory)
 {
   // A hundred states of frequencies up to 100 kHz at 2 rad/s: a million steps of 100 x 100 numbers.
