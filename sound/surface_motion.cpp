@@ -200,9 +200,10 @@ SurfaceMotion::SurfaceMotion(const mbs_export::ModalBody& body, const ThickBody&
     }
     for (std::size_t d = 0; d < 3; ++d) {
       line.coefficients[d] = solver.solve(u[d]);
-      rest += (A * line.coefficients[d] - u[d]).colwise().squaredNorm().transpose();
+      const MatrixXd fitted = A * line.coefficients[d];
+      rest += (fitted - u[d]).colwise().squaredNorm().transpose();
       whole += u[d].colwise().squaredNorm().transpose();
-      if (d < 2) lateral += u[d].colwise().squaredNorm().transpose();
+      if (d < 2) lateral += fitted.colwise().squaredNorm().transpose();  // without what faces differ
     }
     lines_.push_back(std::move(line));
   }

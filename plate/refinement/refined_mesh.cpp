@@ -457,10 +457,10 @@ SolidPattern::SolidPattern(Shape shape, int order, const Refinement& how)
   constexpr double near = 1e-9;
   std::vector<RowVector3d> points;
   const auto place_of = [&](const RowVector3d& x) {
-    const auto found = std::ranges::find_if(
-        points, [&](const RowVector3d& other) { return (other - x).norm() < near; });
-    if (found == points.end()) points.push_back(x);
-    return static_cast<int>(found - points.begin());
+    const auto is_there = [&](const RowVector3d& other) { return (other - x).norm() < near; };
+    const auto place = std::ranges::find_if(points, is_there) - points.begin();
+    if (place == std::ssize(points)) points.push_back(x);
+    return static_cast<int>(place);
   };
   const std::vector<std::array<double, 3>> nodes = mesh::solid_nodes(shape, how.order);
   MatrixX3d own(std::ssize(nodes), 3);

@@ -353,7 +353,7 @@ mesh::Mesh with_rings_on_faces(mesh::Mesh mesh)
 TEST(Solids, AreTheSameWithRingsOnTheirFaces)
 {
   const mesh::Mesh without = solid_annulus(), mesh = with_rings_on_faces(without);
-  const std::vector<Coupling> pad{average("pad", "top_face")};
+  const std::vector<Coupling> pad{average("pad", "inner_edge")};
   const std::vector<RingHarmonics> both{{"upper", 5}, {"lower", 2}};
   const System plain =
       assemble(without, {.solids = of_annulus}, map_of(without, {}), PETSC_COMM_WORLD);

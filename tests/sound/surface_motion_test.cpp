@@ -62,20 +62,24 @@ TEST(SurfaceMotion, FollowsTheModeOfTheDisc)
   EXPECT_LT(c.col(1).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-/// The disc as a solid, of which the picture has the upper face alone.
+/// The disc as a solid, of which the picture has both faces.
 mbs_export::ModalBody solid_body()
 {
   mbs_export::ModalBody body = testing::thesis_body();
+  const mbs_export::Picture plate = body.picture;
   const double zeta = 0.5 * testing::disc_thickness, scale = 1.0 / std::sqrt(testing::modal_mass);
   mbs_export::Picture& picture = body.picture;
-  for (Eigen::Index i = 0; i < picture.positions.rows(); ++i) {
+  const Eigen::Index n = plate.positions.rows();
+  picture.positions = plate.positions.replicate(2, 1).eval();
+  picture.transformation = plate.transformation.replicate(2, 1).eval();
+  for (Eigen::Index i = 0; i < 2 * n; ++i) {
     const double x = picture.positions(i, 0), y = picture.positions(i, 1), r = std::hypot(x, y);
-    const double phi = std::atan2(y, x);
-    picture.positions(i, 2) = zeta;
+    const double phi = std::atan2(y, x), z = i < n ? zeta : -zeta;
+    picture.positions(i, 2) = z;
     const Eigen::RowVector2d waves(std::cos(3.0 * phi), std::sin(3.0 * phi)),
         turned(-waves[1], waves[0]);
-    const Eigen::RowVector2d u_r = -zeta * scale * testing::slope(r) * waves,
-                             u_t = -zeta * scale * 3.0 / r * testing::deflection(r) * turned;
+    const Eigen::RowVector2d u_r = -z * scale * testing::slope(r) * waves,
+                             u_t = -z * scale * 3.0 / r * testing::deflection(r) * turned;
     picture.transformation.row(3 * i) = (x * u_r - y * u_t) / r;
     picture.transformation.row(3 * i + 1) = (y * u_r + x * u_t) / r;
   }
