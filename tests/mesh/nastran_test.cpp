@@ -557,7 +557,7 @@ TEST_P(RefusedCard, IsNamedWithItsLine)
 }
 
 const std::vector<Refusal> refused_cards{
-    {nastran_plate + "CGAP,5,100,1,2\n", {"line 8", "CGAP 5", "not known"}},
+    {nastran_plate + "CGAP,5,100,1,2\n", {"line 8", "CGAP 5", "is a contact"}},
     {nastran_plate + "CONM2,5,1,3,.5\n", {"CONM2 5", "system CID"}},
     {nastran_plate + "CONM2,5,9,,.5\n", {"CONM2 5", "no node 9"}},
     {nastran_plate + "GRID,9,,0.,0.,0.\nCONM2,5,9,,.5\n", {"CONM2 5", "node 9", "no coupling"}},
