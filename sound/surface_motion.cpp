@@ -203,7 +203,8 @@ SurfaceMotion::SurfaceMotion(const mbs_export::ModalBody& body, const ThickBody&
       const MatrixXd fitted = A * line.coefficients[d];
       rest += (fitted - u[d]).colwise().squaredNorm().transpose();
       whole += u[d].colwise().squaredNorm().transpose();
-      if (d < 2) lateral += fitted.colwise().squaredNorm().transpose();  // without what faces differ
+      if (d < 2)
+        lateral += fitted.colwise().squaredNorm().transpose();  // without what faces differ
     }
     lines_.push_back(std::move(line));
   }
