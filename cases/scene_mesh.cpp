@@ -272,23 +272,37 @@ std::optional<double> edge_row_of(const mesh::MeshOptions& mesh)
   return row;
 }
 
-std::vector<int> other_orders(const mesh::MeshOptions& mesh)
+namespace {
+
+bool may_have_triangles(const mesh::MeshOptions& mesh)
 {
   bool has_triangles = !mesh.beam;
   of_plane_generator(mesh, [&](const auto& options) {
     has_triangles = options.pattern != mesh::Pattern::structured;
   });
-  std::vector<int> orders{2, 3, 4};
-  if (has_triangles) orders.pop_back();
-  std::erase(orders, order_of(mesh));
+  return has_triangles;
+}
+
+/// Of quadrilaterals 4, of triangles and of hexahedra 3, of wedges 2.
+int highest_order_of(const mesh::MeshOptions& mesh)
+{
+  return 4 - (may_have_triangles(mesh) ? 1 : 0) - (mesh.extrude ? 1 : 0);
+}
+
+}  // namespace
+
+std::vector<int> other_orders(const mesh::MeshOptions& mesh)
+{
+  std::vector<int> orders;
+  for (int order = 2; order <= highest_order_of(mesh); ++order)
+    if (order != order_of(mesh)) orders.push_back(order);
   return orders;
 }
 
 double refine_solids(mesh::MeshOptions& mesh)
 {
-  constexpr int highest = 3;
   constexpr double left_by_order = 0.4, left_by_halves = 0.25;
-  const bool rises = order_of(mesh) < highest;
+  const bool rises = order_of(mesh) < highest_order_of(mesh);
   const auto refine = [&](auto& options) {
     if (!options) return;
     options->element_order += rises ? 1 : 0;
