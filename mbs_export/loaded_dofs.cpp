@@ -25,8 +25,8 @@ constexpr Index most_loads = 256;
 /// Of loads that vary over the nodes of a set.
 constexpr int highest_degree = 8;
 /// Bolts and other points. Sets of more nodes are edges or surfaces, at whose single nodes forces
-/// are a matter of the mesh.
-constexpr std::size_t few_nodes = 24;
+/// are a matter of the mesh; where all loads are too many, those of more than the second number.
+constexpr std::size_t few_nodes = 24, fewer_nodes = 9;
 /// On such sets, contact rings apart, where the scene names none.
 constexpr Index most_on_edges = 96;
 
@@ -209,6 +209,7 @@ LoadGroup group_of(const Pattern& pattern, Index n_loads)
 struct Spreading {
   int degree;
   bool of_rings;
+  std::size_t few_nodes;
 };
 
 /// Collects the loads of sets.
@@ -221,7 +222,8 @@ class LoadList {
   void add(const SetLoad& load, const ContactRing* ring)
   {
     const std::vector<int>& nodes = load.nodes;
-    const bool is_edge = ring == nullptr && nodes.size() > few_nodes;
+    const bool is_edge =
+        ring == nullptr && nodes.size() > (spreading_ ? spreading_->few_nodes : few_nodes);
     const bool is_spread = spreading_ && (is_edge || (ring != nullptr && spreading_->of_rings));
     const Index n_before = n_loads();
     if (is_spread)
@@ -335,13 +337,15 @@ class LoadList {
   Index n_on_edges_ = 0;
 };
 
-/// Each DOF by itself, then edges by polynomials, the highest degree first, then rings as well.
+/// Each DOF by itself, then edges by polynomials, the highest degree first, then smaller sets and
+/// rings as well.
 std::vector<std::optional<Spreading>> ways_to_load()
 {
   std::vector<std::optional<Spreading>> ways{std::nullopt};
-  for (const bool of_rings : {false, true})
+  for (const auto& [of_rings, few] :
+       {std::pair{false, few_nodes}, {false, fewer_nodes}, {true, fewer_nodes}})
     for (int degree = highest_degree; degree >= 0; --degree)
-      ways.emplace_back(Spreading{.degree = degree, .of_rings = of_rings});
+      ways.emplace_back(Spreading{.degree = degree, .of_rings = of_rings, .few_nodes = few});
   return ways;
 }
 

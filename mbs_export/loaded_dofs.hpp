@@ -40,11 +40,11 @@ struct LoadedDofs {
 /// The loads of a scene: the DOFs of its `interface_modes`. Without these, the displacement normal
 /// to the disc on every contact ring, and on every other set the components that are drilling
 /// (held_modes.hpp) at none of its nodes, at those nodes where they are not held. Where sets of
-/// more than 24 nodes that are no contact rings have more than 96 of these, or all together are
-/// more than 256, the nodes of such a set are loaded together, by forces that vary over it as
-/// polynomials of x, y and z, of the highest degree up to 8 that keeps the numbers; rings come
-/// last. Loads that the scene names may be 256. Empty
-/// where the support holds all: then the body is moved by its reactions alone.
+/// more than 24 nodes (9, where that does not suffice) that are no contact rings have more than 96
+/// of these, or all together are more than 256, the nodes of such a set are loaded together, by
+/// forces that vary over it as polynomials of x, y and z, of the highest degree up to 8 that keeps
+/// the numbers; rings come last. Loads that the scene names may be 256. Empty where the support
+/// holds all: then the body is moved by its reactions alone.
 /// @throws chladni::Error for a set or component that does not exist, is held or drilling, for
 ///         more sets than a selection can compare, and where nothing would be loaded although
 ///         something is free, as of a contact ring that is held along z alone.

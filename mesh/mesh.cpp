@@ -316,7 +316,7 @@ std::optional<FacePoint> LevelFaces::point_of(const FreeFace& face, double x, do
 {
   constexpr int most_steps = 30;
   constexpr double step = 1e-4, converged = 1e-12, outside = 1e-7;
-  const bool is_triangle = face.nodes.size() == std::size_t(3 * order(face));
+  const bool is_triangle = std::ssize(face.nodes) == 3 * order(face);
   const auto at = [&](double r, double s) {
     return position(face, face_functions(face.nodes.size(), order(face), r, s));
   };
@@ -428,7 +428,7 @@ std::pair<FaceNode, Vector> RingOnFaces::at(double angle) const
     node.nodes.push_back(of_face);
     node.weights.push_back(weight);
   }
-  return {std::move(node), {centre[0], centre[1], ring_.z.value_or(z)}};
+  return {std::move(node), Vector{centre[0], centre[1], ring_.z.value_or(z)}};
 }
 
 Group ring_on_faces(Mesh& mesh, const RingOptions& ring)

@@ -44,7 +44,7 @@ struct NodesOfElements {
     if (mesh.matrices) {
       const auto& n_components = mesh.matrices->n_components;  // rings on faces have nodes beyond
       for (std::size_t node = 0; node < n_components.size(); ++node) {
-        const int n = n_components[node];
+        const auto n = n_components[node];
         if (n > 0) (n == 3 ? solid : other)[node] = 1;
       }
       return;
