@@ -100,15 +100,10 @@ std::vector<std::string> notes_of(const Table& root, const Scene& scene)
 void refuse_beside_solids(const Table& root, const Scene& scene)
 {
   if (scene.solids.empty()) return;
-  if (scene.accuracy && !scene.mesh.extrude) {
+  if (scene.accuracy) {
     root.refuse("accuracy",
-                "of solids chooses the elements of a generator with `extrude`, and this is a file; "
-                "`mesh_errors = true` in [reduce] estimates what it lets the frequencies be off");
-  }
-  if (scene.accuracy && root.has("squeal")) {
-    root.refuse("accuracy",
-                "of solids does not tell how far the mesh lets the faces of [squeal] move "
-                "otherwise; give [mesh] element_size, and compare with a finer mesh");
+                "is for shells and beams; give solids a mesh, and mesh_errors = true in [reduce] "
+                "estimates what it lets their frequencies be off");
   }
 }
 

@@ -1,7 +1,7 @@
 """A scene that says an accuracy and no mesh gets one that keeps it.
 
 The clamped annular Mindlin plate against its exact frequencies, for three accuracies; a free plate, a plate
-from a .geo, a hat disc, a beam and a solid bar against meshes that were chosen for a tenth of the error. The elements of a
+from a .geo, a hat disc and a beam against meshes that were chosen for a tenth of the error. The elements of a
 mesh file are split, and refused with the error that they have where the scene names their numbers.
 
 Usage: accuracy.py PROGRAM_DIR
@@ -96,21 +96,6 @@ I_z = 2e-8
 J = 4.7e-8
 orientation = [0, 0, 1]
 """ + HELD.format(group="start"),
-    "solid bar": """
-[mesh]
-generator = "rectangle"
-length = 0.3
-width = 0.04
-extrude = { from = 0.0, to = 0.02 }
-""" + IRON + """
-[[section]]
-group = "plate"
-type = "solid"
-material = "iron"
-[[support]]
-group = "left"
-dofs = ["x", "y", "z"]
-""",
 }
 
 

@@ -16,8 +16,7 @@ QUOTED = re.compile(r"<!-- bench: [\w ]+ -->.*?<!-- end -->|<!-- made by ./dev b
 # Numbers that were not measured: the page, its words, and the source and the line that has the limit.
 LIMITS = [
     *((f"docs/{page}.md", "20,000 DOFs", "cases/mesh_errors.hpp", "most_halved = 20'000")
-      for page in ("explanation/theory", "explanation/squeal", "how-to/meshes", "how-to/solids")),
-    ("docs/how-to/solids.md", "60,000 DOFs", "cases/mesh_errors.cpp", "most = 60'000"),
+      for page in ("explanation/theory", "explanation/squeal", "how-to/meshes")),
     ("docs/how-to/meshes.md", "30 MB", "report/fe/vtu.cpp", "most_marks = 30'000'000"),
     ("docs/how-to/meshes.md", "15 minutes", "mesh/mesher.cpp", ": 900.0;"),
     ("docs/how-to/report.md", "4 MB", "report/page/sound.cpp", "most_wav_bytes = 4'000'000"),
