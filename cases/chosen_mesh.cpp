@@ -584,7 +584,7 @@ Eigen::VectorXd lowest_of(const SupportedModel& model, Eigen::Index n,
 MeshFrequencies::MeshFrequencies(const scene::Scene& scene, mesh::Mesh mesh)
     : scene_(scene),
       mesh_(std::make_unique<const mesh::Mesh>(std::move(mesh))),
-      sector_(scene.solids.empty() ? SectorFrequencies::find(scene, *mesh_) : std::nullopt)
+      sector_(SectorFrequencies::find(scene, *mesh_))
 {
   if (!sector_) whole();
 }
@@ -615,30 +615,10 @@ Eigen::VectorXd MeshFrequencies::like(const Eigen::VectorXd& known,
 
 MeshErrors MeshFrequencies::errors_up_to(double omega, const linear::SolverOptions& solver)
 {
-  if (!scene_.solids.empty()) return errors_of_solids(omega, solver);
   if (sector_) {
     if (std::optional<MeshErrors> found = sector_->errors_up_to(omega, solver)) return *found;
   }
   return mesh_errors(scene_, whole(), modes_in_range(whole(), omega, solver), solver);
-}
-
-MeshErrors MeshFrequencies::errors_of_solids(double omega, const linear::SolverOptions& solver)
-{
-  const reduce::NaturalModes modes = modes_in_range(whole(), omega, solver);
-  const Eigen::Index n_rigid = plate::n_free_motions(whole().free),
-                     n = std::ssize(modes.lambda) - n_rigid;
-  if (n <= 0) return {};
-  const Eigen::VectorXd lambda =
-      Eigen::Map<const Eigen::VectorXd>(modes.lambda.data() + n_rigid, n);
-  scene::Scene finer = scene_;
-  const double left = refine_solids(finer.mesh);
-  MeshErrors found{
-      .omega = lambda.cwiseMax(0.0).cwiseSqrt(),
-      .errors = {},
-      .shape_errors = Eigen::MatrixXd::Zero(6, n),
-      .finer = lowest_of(assemble_supported(finer, mesh_on_all_ranks(finer)), n, solver)};
-  found.errors = (found.finer.cwiseQuotient(found.omega).array() - 1.0).abs() / (1.0 - left);
-  return found;
 }
 
 // An element of size h at a place has the error c h^r for each area, and 1 / h^2 elements fill it.

@@ -56,8 +56,6 @@ class MeshFrequencies {
 
  private:
   const SupportedModel& whole();
-  /// By the frequencies of a finer mesh of the scene, by their place in the order.
-  MeshErrors errors_of_solids(double omega, const linear::SolverOptions& solver);
 
   scene::Scene scene_;
   std::unique_ptr<const mesh::Mesh> mesh_;  ///< at a fixed address, to which the sector refers

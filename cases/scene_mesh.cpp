@@ -272,47 +272,16 @@ std::optional<double> edge_row_of(const mesh::MeshOptions& mesh)
   return row;
 }
 
-namespace {
-
-bool may_have_triangles(const mesh::MeshOptions& mesh)
+std::vector<int> other_orders(const mesh::MeshOptions& mesh)
 {
   bool has_triangles = !mesh.beam;
   of_plane_generator(mesh, [&](const auto& options) {
     has_triangles = options.pattern != mesh::Pattern::structured;
   });
-  return has_triangles;
-}
-
-/// Of quadrilaterals 4, of triangles and of hexahedra 3, of wedges 2.
-int highest_order_of(const mesh::MeshOptions& mesh)
-{
-  return 4 - (may_have_triangles(mesh) ? 1 : 0) - (mesh.extrude ? 1 : 0);
-}
-
-}  // namespace
-
-std::vector<int> other_orders(const mesh::MeshOptions& mesh)
-{
-  std::vector<int> orders;
-  for (int order = 2; order <= highest_order_of(mesh); ++order)
-    if (order != order_of(mesh)) orders.push_back(order);
+  std::vector<int> orders{2, 3, 4};
+  if (has_triangles) orders.pop_back();
+  std::erase(orders, order_of(mesh));
   return orders;
-}
-
-double refine_solids(mesh::MeshOptions& mesh)
-{
-  constexpr double left_by_order = 0.4, left_by_halves = 0.25;
-  const bool rises = order_of(mesh) < highest_order_of(mesh);
-  const auto refine = [&](auto& options) {
-    if (!options) return;
-    options->element_order += rises ? 1 : 0;
-    options->element_size *= rises ? 1.0 : 0.5;
-  };
-  refine(mesh.annulus);
-  refine(mesh.pad);
-  refine(mesh.rectangle);
-  mesh.extrude->layers *= rises ? 1 : 2;
-  return rises ? left_by_order : left_by_halves;
 }
 
 bool takes_local_sizes(const mesh::MeshOptions& mesh)

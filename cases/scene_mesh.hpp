@@ -64,10 +64,6 @@ std::vector<int> other_orders(const mesh::MeshOptions& mesh);
 bool takes_local_sizes(const mesh::MeshOptions& mesh);
 /// True if the generator can make rows of this width along the edges.
 bool takes_edge_row(const mesh::MeshOptions& mesh, double width);
-/// Makes the elements of `extrude` finer: of the next order, or of half the size where there is
-/// none.
-/// @return the error that is left, as a part of that of the mesh
-double refine_solids(mesh::MeshOptions& mesh);
 /// The largest element size, m; for a .geo the factor on its own sizes.
 double largest_size(const mesh::MeshOptions& mesh);
 /// The size to begin with: a few elements per wavelength at omega [rad/s]; for a .geo its own size.
