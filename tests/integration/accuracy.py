@@ -155,8 +155,8 @@ def points_stay_points(programs, folder):
         is_deck = name.endswith(".inp")
         supports = "".join(f'[[support]]\ngroup = "{group}"\ndofs = ["x", "y", "z"]\n' for group in held[name])
         (folder / "scene.toml").write_text(
-            f'accuracy = {{ error = 0.03, up_to_Hz = 1000 }}\n[mesh]\nfile = "{name}"\n' + 'length_unit = "m"\n' * is_deck
-            + IRON + shell("PLATE" if is_deck else "plate", 0.006) + supports + "[modes]\ncount = 12\n")  # fmt: skip
+            f'accuracy = {{ error = 0.03, up_to_Hz = 300 }}\n[mesh]\nfile = "{name}"\n' + 'length_unit = "m"\n' * is_deck
+            + IRON + shell("PLATE" if is_deck else "plate", 0.006) + supports + "[modes]\ncount = 4\n")  # fmt: skip
         said = run(programs / "chladni", "modes", folder / "scene.toml", "--output", folder, "--overwrite", "--json", folder / "found.json")
         found[name] = json.loads((folder / "found.json").read_text())["frequencies_Hz"]
         print(f"held in {name}: {', '.join(f'{f:.2f}' for f in found[name][:4])} Hz")
@@ -181,7 +181,7 @@ def takes_mesh_file(programs, folder, exact):
     good = check("plate of a .msh", found, exact, 1e-3, 0)
     # At a held point a frequency converges by the logarithm of the size.
     held = '[[support]]\ngroup = "corner"\ndofs = ["x", "y", "z"]\n[modes]\ncount = 4\n'
-    refused = said_to(1e-6, 1, 1, more=held, up_to_Hz=300.0, corners=(1, 2, 3))
+    refused = said_to(1e-6, 1, 1, more=held, up_to_Hz=100.0, corners=(1, 2, 3))
     print(refused.strip())
     assert re.search(r"that of the elements of \S+plate.msh raised to order 3 and halved \d times has an error of", refused)
     numbers = '[interface]\nnodes = ["corner"]\n[reduce]\nresultants = ["plate"]\nresultant_elements = [1]\n'

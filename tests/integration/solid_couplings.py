@@ -310,7 +310,7 @@ def hub(programs, folder):
 
 def reductions(programs, folder, mpirun):
     """Each reduction is the same on any number of ranks, and the most exact has the frequencies of the model."""
-    scene = DISC + REDUCED
+    scene = changed(DISC + REDUCED, ("element_size = 0.03", "element_size = 0.05"))
     free = changed(scene, ("METHOD", 'method = "guyan"'))
     _, of_model = modes(programs, folder, free)
     for method in "guyan", "craig-bampton", "mixed-interface", "rubin":
