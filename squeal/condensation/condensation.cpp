@@ -243,6 +243,47 @@ class Condensing {
     }
   }
 
+  /// Bodies with some of the shapes of each part; none where a part has no shape.
+  static Bodies with(std::span<const PartShape> shapes, std::span<const ModalBody> bodies)
+  {
+    Bodies few;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const MatrixXd of_part = columns_of(shapes, i, bodies[i].n_modes());
+      if (of_part.cols() == 0) return {};
+      few.push_back(mbs_export::condensed(bodies[i], of_part));
+    }
+    return few;
+  }
+
+  /// As few shapes as keep the tolerance in all samples and in states between them too. A state
+  /// that they do not keep becomes a sample; the others are asked again of the new choice.
+  Choice choose_for_all()
+  {
+    // Parts of the ranges of speed and friction.
+    constexpr std::array<std::array<double, 2>, 3> places{{{0.5, 0.5}, {0.25, 0.75}, {0.75, 0.25}}};
+    std::vector<KnownState> between;
+    for (const auto& [of_speeds, of_friction] : places) {
+      const double speed = std::lerp(wanted_.speed_from, wanted_.speed_to, of_speeds);
+      between.push_back(state(speed, of_friction));
+    }
+    for (;;) {
+      Choice choice = choose();
+      CondensationError error = choice.error;
+      const auto missed = std::ranges::find_if(between, [&](const KnownState& at) {
+        const CondensationError here = error_in(choice, at);
+        error = worst_of(error, here);
+        return !(here.eigenvalues <= wanted_.tolerance);
+      });
+      if (missed == between.end()) {
+        choice.error = error;
+        return choice;
+      }
+      add(std::move(*missed));
+      between.erase(missed);
+    }
+  }
+
+ private:
   void add(KnownState sample) { samples_.push_back(std::move(sample)); }
 
   KnownState state(double speed, double friction) const
@@ -285,19 +326,6 @@ class Condensing {
     return condensation_error(at.modes.lambda, matrix_of(assembly(options_, few), at.at), wanted_);
   }
 
-  /// Bodies with some of the shapes of each part; none where a part has no shape.
-  static Bodies with(std::span<const PartShape> shapes, std::span<const ModalBody> bodies)
-  {
-    Bodies few;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      const MatrixXd of_part = columns_of(shapes, i, bodies[i].n_modes());
-      if (of_part.cols() == 0) return {};
-      few.push_back(mbs_export::condensed(bodies[i], of_part));
-    }
-    return few;
-  }
-
- private:
   double end_Hz() const { return wanted_.highest / (2.0 * std::numbers::pi); }
 
   std::vector<PartShape> shapes_of_all() const
@@ -346,20 +374,7 @@ CondensedBodies condense(const AssemblyOptions& options, std::span<const ModalBo
                          const CondensationOptions& wanted)
 {
   Condensing condensing(options, bodies, wanted);
-  Choice choice = condensing.choose();
-  // Parts of the ranges of speed and friction that are none of the samples.
-  constexpr std::array<std::array<double, 2>, 3> between{{{0.5, 0.5}, {0.25, 0.75}, {0.75, 0.25}}};
-  for (const auto& [of_speeds, of_friction] : between) {
-    KnownState check = condensing.state(
-        wanted.speed_from + of_speeds * (wanted.speed_to - wanted.speed_from), of_friction);
-    const CondensationError error = condensing.error_in(choice, check);
-    if (error.eigenvalues <= wanted.tolerance) {
-      choice.error = worst_of(choice.error, error);
-      continue;
-    }
-    condensing.add(std::move(check));
-    choice = condensing.choose();
-  }
+  const Choice choice = condensing.choose_for_all();
   CondensedBodies found{
       .bodies = Condensing::with(std::span(choice.shapes).first(choice.n), bodies),
       .error = choice.error};
