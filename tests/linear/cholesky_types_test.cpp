@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numbers>
 #include <numeric>
+#include <string>
 
 #include "chain.hpp"
 #include "common/petsc.hpp"
@@ -270,6 +275,40 @@ TEST_P(CholeskyType, SolvesIndefiniteMatricesAsWellAsDefiniteOnes)
     factor.factorize(A);
     EXPECT_LT(factor.backward_error(A), 1e-14) << shift;
   }
+}
+
+/// By Sylvester's law: of the eigenvalues 2 - 2 cos(k pi / 801), k = 0 ... 800, below the shift.
+TEST_P(CholeskyType, TellsTheInertiaToAnyCaller)
+{
+  const petsc::Matrix A = shifted_chain(0.7);
+  const AnyFactor factor(A, GetParam());
+  factor.factorize(A);
+  PetscInt negative = -1, zero = -1, positive = -1, alone = -1;
+  petsc::check(MatGetInertia(factor.F, &negative, &zero, &positive));
+  petsc::check(MatGetInertia(factor.F, &alone, nullptr, nullptr));
+  const int below = 1 + static_cast<int>(801.0 * std::acos(1.0 - 0.35) / std::numbers::pi);
+  EXPECT_EQ(negative, below);
+  EXPECT_EQ(alone, below);
+  EXPECT_EQ(zero, 0);
+  EXPECT_EQ(positive, 801 - below);
+}
+
+TEST_P(CholeskyType, SaysWhatItIsToAViewer)
+{
+  const petsc::Matrix A = membranes(20);
+  const AnyFactor factor(A, GetParam());
+  factor.factorize(A);
+  const std::string path = ::testing::TempDir() + "factor_" + GetParam() + ".txt";
+  PetscViewer viewer = nullptr;
+  petsc::check(PetscViewerASCIIOpen(PETSC_COMM_WORLD, path.c_str(), &viewer));
+  petsc::check(PetscViewerPushFormat(viewer, PETSC_VIEWER_ASCII_INFO));
+  petsc::check(MatView(factor.F, viewer));
+  petsc::check(PetscViewerDestroy(&viewer));
+  if (petsc::rank(PETSC_COMM_WORLD) != 0) return;
+  std::ifstream file(path);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::filesystem::remove(path);
+  EXPECT_NE(text.find(" operations, "), std::string::npos) << text;
 }
 
 PivotSigns pivot_signs_of_chain(double shift)
