@@ -412,6 +412,9 @@ class Library:
 
     def __init__(self, build, scratch, libraries, programs):
         self.build, self.scratch, self.programs = build, scratch, programs
+        programs_beside = scratch.parent / "libexec"  # where tests look for the mesher, from the folder that they lie in
+        if not programs_beside.is_symlink():
+            programs_beside.symlink_to("../libexec")
         subprocess.run(["ninja", "-C", str(build), *(f"tests/{p}" for p in programs)], stdout=subprocess.DEVNULL, check=True)
         listed = subprocess.run(["ninja", "-C", str(build), "-t", "commands", *(f"tests/{p}" for p in programs)],
                                 stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()  # fmt: skip
