@@ -484,6 +484,17 @@ TEST(NastranDeclarations, TakeAShearModulusOfTwoDigits)
                                                     1e-3);
   EXPECT_NEAR(declared.materials.at(0).poisson, 0.29, 1e-15);
   EXPECT_NE(declared.notes.at(0).find("two digits"), std::string::npos);
+  // E / (2 (1 + NU)) = 80233, of which 79.+3 is not the first two digits.
+  const std::string other = "MAT1,9,2.07E5,79.+3,.29,7.82-9\nPSHELL,7,9,2.,9,,9\n";
+  EXPECT_NE(error_in_nastran(nastran_square + other).find("isotropic"), std::string::npos);
+}
+
+TEST(NastranDeclarations, HaveYoungsModulusOfTheOtherTwo)
+{
+  const Declarations declared =
+      declared_by_nastran(nastran_square + "MAT1,9,,80.+3,.25,7.82-9\nPSHELL,7,9,2.,9,,9\n", 1e-3);
+  EXPECT_NEAR(declared.materials.at(0).young, 2e11, 1e-3);
+  EXPECT_NEAR(declared.materials.at(0).poisson, 0.25, 1e-15);
 }
 
 TEST(NastranDeclarations, HaveBarsRigidInShearWhereTheirFactorsAreZero)
@@ -541,6 +552,8 @@ TEST(NastranDeclarations, HaveBarsByTheirShapes)
   EXPECT_NEAR(bar.area, 12e-6, 1e-18);
   EXPECT_NEAR(bar.I_y, 36e-12, 1e-24) << "6 mm high in the plane of the vector";
   EXPECT_NEAR(bar.I_z, 4e-12, 1e-24);
+  EXPECT_NEAR(bar.shear_factor_y.value(), 5.0 / 6.0, 1e-15);
+  EXPECT_NEAR(bar.shear_factor_z.value(), 5.0 / 6.0, 1e-15);
   EXPECT_NEAR(bar.J / 12.64e-12, 1.0, 2e-3) << "0.2633 a b^3 of a rectangle of 3 to 1";
   EXPECT_EQ(bar.orientation, (std::array<double, 3>{0.0, 1.0, 0.0}));
   EXPECT_NEAR(rod.J, 8.0 * std::numbers::pi * 1e-12, 1e-22);

@@ -141,6 +141,14 @@ TEST(Unv, LeavesOutWhatIsNoMesh)
   expect_words(notes, {"1 datasets of results", "dataset 164 says that 1 is 0.001 m"});
 }
 
+TEST(Unv, SaysNothingOfAFactorOfTheSameLengthUnit)
+{
+  // mesh_of_unv takes 1 as a metre.
+  const Mesh mesh =
+      mesh_of_unv(unv_plate + dataset("164", "1  m  2\n1.0000000001D+00 1.0 1.0\n273.15\n"));
+  for (const std::string& note : mesh.notes) EXPECT_EQ(note.find("164"), std::string::npos) << note;
+}
+
 TEST(Unv, RefusesWhatIsWrongOrNotKnown)
 {
   const std::vector<Refusal> refusals{
