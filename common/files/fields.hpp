@@ -22,10 +22,10 @@
 
 /// Structs as groups of an HDF5 file. One list of fields for each stored struct says name, unit and
 /// place of every dataset; writing, reading, comparing and JSON follow from it:
-///   double, int (a count), std::int64_t, bool, text, vectors and matrices: a dataset
+///   double, int (a count), std::int64_t, bool, text, lists of texts, vectors, matrices: a dataset
 ///   complex vectors and matrices: NAME_re and NAME_im, of the unit "1/s + i rad/s" or one for both
 ///   std::optional<double>: a dataset that may be absent
-///   another stored struct: a group
+///   another stored struct: a group; std::optional of one: a group that may be absent
 ///   a vector of stored structs: a group with one dataset for each member, in which -1 stands for
 ///   what is absent; or, of `Numbered` structs, groups 1, 2, ...
 namespace chladni::files {
@@ -84,6 +84,10 @@ template <class T>
 inline constexpr bool is_optional = false;
 template <class T>
 inline constexpr bool is_optional<std::optional<T>> = true;
+template <class T>
+inline constexpr bool is_optional_stored = false;
+template <Stored T>
+inline constexpr bool is_optional_stored<std::optional<T>> = true;
 
 template <class T>
 inline constexpr bool is_complex = false;
@@ -153,6 +157,16 @@ class Extents {
   std::map<std::string, Eigen::Index> known_;
 };
 
+/// @param n  required number; `any`
+inline std::vector<std::string> texts_in(const Reader& file, const std::string& name,
+                                         Eigen::Index n)
+{
+  std::vector<std::string> texts = file.texts(name);
+  if (n != any && std::ssize(texts) != n)
+    file.fail(name, fmt::format("has {} values, expected {}", texts.size(), n));
+  return texts;
+}
+
 inline int count_in(const Reader& file, const std::string& name, std::int64_t x)
 {
   if (x < 0 || x > std::numeric_limits<int>::max())
@@ -188,6 +202,10 @@ void write_columns(Writer& file, const std::string& group, std::size_t n, const 
     if constexpr (Stored<Value>) {
       write_columns<Value>(file, name, n, unit,
                            [&](std::size_t i) -> const Value& { return at(i).*field.member; });
+    } else if constexpr (std::same_as<Value, std::string>) {
+      std::vector<std::string> texts;
+      for (std::size_t i = 0; i < n; ++i) texts.push_back(at(i).*field.member);
+      file.write(name, texts);
     } else {
       constexpr bool is_real =
           std::same_as<Value, double> || std::same_as<Value, std::optional<double>>;
@@ -217,6 +235,8 @@ Eigen::Index count_rows(const Reader& file, const std::string& group, Eigen::Ind
     if (field.presence == Presence::later && !file.contains(name)) return;
     if constexpr (Stored<Value>)
       n = count_rows<Value>(file, name, n);
+    else if constexpr (std::same_as<Value, std::string>)
+      n = std::ssize(in_fields::texts_in(file, name, n));
     else if constexpr (std::same_as<Value, double> || std::same_as<Value, std::optional<double>>)
       n = file.vector(name, n).size();
     else
@@ -250,6 +270,9 @@ void read_columns(const Reader& file, const std::string& group, Eigen::Index n, 
     if constexpr (Stored<Value>) {
       read_columns<Value>(file, name, n,
                           [&](std::size_t i) -> Value& { return at(i).*field.member; });
+    } else if constexpr (std::same_as<Value, std::string>) {
+      std::vector<std::string> texts = in_fields::texts_in(file, name, n);
+      for (std::size_t i = 0; i < texts.size(); ++i) at(i).*field.member = std::move(texts[i]);
     } else if constexpr (std::same_as<Value, double> ||
                          std::same_as<Value, std::optional<double>>) {
       const Eigen::VectorXd x = file.vector(name, n);
@@ -294,7 +317,7 @@ namespace in_fields {
 template <class Value>
 void write_value(Writer& file, const std::string& name, const Value& x, const std::string& unit)
 {
-  if constexpr (std::same_as<Value, std::string>) {
+  if constexpr (std::same_as<Value, std::string> || std::same_as<Value, std::vector<std::string>>) {
     file.write(name, x);
   } else if constexpr (Integer<Value>) {
     file.write(name, std::int64_t{x}, unit);
@@ -337,6 +360,8 @@ Value read_value(const Reader& file, const std::string& name, std::string_view s
     return file.contains(name) ? std::optional(file.real(name)) : std::nullopt;
   } else if constexpr (std::same_as<Value, std::string>) {
     return file.text(name);
+  } else if constexpr (std::same_as<Value, std::vector<std::string>>) {
+    return file.texts(name);
   } else if constexpr (std::same_as<Value, int>) {
     return count_in(file, name, file.integer(name));
   } else if constexpr (std::same_as<Value, bool>) {
@@ -394,6 +419,8 @@ void write_fields(Writer& file, const std::string& group, const T& x, const std:
     const std::string unit = in_fields::unit_within(field.unit, own);
     if constexpr (Stored<Value>) {
       write_fields(file, name, value, unit);
+    } else if constexpr (in_fields::is_optional_stored<Value>) {
+      if (value) write_fields(file, name, *value, unit);
     } else if constexpr (in_fields::is_vector_of_stored<Value>) {
       if constexpr (Numbered<typename Value::value_type>)
         for (std::size_t i = 0; i < value.size(); ++i)
@@ -418,6 +445,8 @@ T read_fields(const Reader& file, const std::string& group)
     if (field.presence != Presence::always && !in_fields::is_there<Value>(file, name)) return;
     if constexpr (Stored<Value>) {
       value = read_fields<Value>(file, name);
+    } else if constexpr (in_fields::is_optional_stored<Value>) {
+      if (file.contains(name)) value = read_fields<typename Value::value_type>(file, name);
     } else if constexpr (in_fields::is_vector_of_stored<Value>) {
       using Row = typename Value::value_type;
       if constexpr (Numbered<Row>)
@@ -442,6 +471,9 @@ std::string difference(const T& a, const T& b, const std::string& name = "")
     for_each_field<T>([&](const auto& field) {
       found += difference(a.*field.member, b.*field.member, in_fields::joined(name, field.name));
     });
+  } else if constexpr (in_fields::is_optional_stored<T>) {
+    if (a.has_value() != b.has_value()) return name + ' ';
+    if (a) found = difference(*a, *b, name);
   } else if constexpr (in_fields::is_vector_of_stored<T>) {
     if (a.size() != b.size()) return name + " (number) ";
     for (std::size_t i = 0; i < a.size(); ++i)

@@ -309,38 +309,6 @@ std::vector<ModeKind> read_mode_kinds(const files::Reader& file, Index n_modes)
   return kinds;
 }
 
-void write_preparation(files::Writer& file, const ModalBody& body)
-{
-  const auto count = [&](const std::string& name, int n) {
-    file.write("preparation/" + name, std::int64_t{n}, "1");
-  };
-  file.write("preparation/condition_Q_dd", body.condition_Q_dd, "1");
-  if (body.preparation.condition_directions)
-    file.write("preparation/condition_directions", *body.preparation.condition_directions, "1");
-  file.write("preparation/rigid_residual", body.preparation.rigid_residual, "1");
-  count("free_rigid_modes", body.n_free_rigid);
-  count("constrained_modes", body.preparation.n_constrained_modes);
-  count("partner_modes", body.preparation.n_partners);
-  count("interface_modes_dropped", body.preparation.n_interface_dropped);
-  count("massless_coordinates", body.preparation.n_massless);
-}
-
-Preparation read_preparation(const files::Reader& file)
-{
-  const auto count = [&](const std::string& name) {
-    return file_parts::read_count(file, "preparation/" + name);
-  };
-  std::optional<double> directions;
-  if (file.contains("preparation/condition_directions"))
-    directions = file.real("preparation/condition_directions");
-  return {.n_constrained_modes = count("constrained_modes"),
-          .n_partners = count("partner_modes"),
-          .n_interface_dropped = count("interface_modes_dropped"),
-          .n_massless = count("massless_coordinates"),
-          .rigid_residual = file.real("preparation/rigid_residual"),
-          .condition_directions = directions};
-}
-
 std::vector<ContactRing> read_rings(const files::Reader& file, Index n_nodes, Index n_modes)
 {
   std::vector<ContactRing> rings;
@@ -383,10 +351,12 @@ void write_body(const std::string& path, const ModalBody& body)
   file.write("rigid_body/inertia", body.inertia, "kg m^2");
   file.write("free_body/frequencies", body.free_frequencies, "rad/s");
   file.write("free_body/rigid_modes", std::int64_t{body.n_rigid}, "1");
-  write_preparation(file, body);
-  if (body.selection) write_selection(file, *body.selection);
+  file.write("preparation/condition_Q_dd", body.condition_Q_dd, "1");
+  file.write("preparation/free_rigid_modes", std::int64_t{body.n_free_rigid}, "1");
+  files::write_fields(file, "preparation", body.preparation);
+  write_if_any(file, "selection", body.selection);
   file_parts::write_sector_harmonics(file, body.sector_harmonics);
-  file_parts::write_condensation(file, body.condensation);
+  write_if_any(file, "condensation", body.condensation);
   write_certificate(file, body.certificate);
   file_parts::write_provenance(file, body.provenance);
   file.commit();
@@ -429,13 +399,13 @@ ModalBody read_body(const files::Reader& file)
           .n_rigid = n_rigid,
           .condition_Q_dd = file.real("preparation/condition_Q_dd"),
           .n_free_rigid = file_parts::read_count(file, "preparation/free_rigid_modes"),
-          .preparation = read_preparation(file),
+          .preparation = files::read_fields<Preparation>(file, "preparation"),
           .resultants = file_parts::read_resultants(file, n),
           .mass_integrals = file_parts::read_mass_integrals(file, n),
           .stiffening = file_parts::read_stiffening(file, n),
-          .selection = read_selection(file),
+          .selection = read_if_any<SelectionTable>(file, "selection"),
           .sector_harmonics = file_parts::read_sector_harmonics(file, n),
-          .condensation = file_parts::read_condensation(file),
+          .condensation = read_if_any<Condensation>(file, "condensation"),
           .certificate = read_certificate(file),
           .provenance = file_parts::read_provenance(file)};
 }
@@ -636,11 +606,7 @@ void write_certificate(files::Writer& file, const Certificate& certificate)
   file.write("certificate/rigid_residual", certificate.rigid_residual, "1");
   if (certificate.condition > 0.0)
     file.write("certificate/condition_K_ss", certificate.condition, "1");
-  if (certificate.responses) {
-    file.write("certificate/responses/up_to", certificate.responses->up_to, "rad/s");
-    file.write("certificate/responses/error", certificate.responses->error, "1");
-    file.write("certificate/responses/loads", certificate.responses->loads);
-  }
+  write_if_any(file, "certificate/responses", certificate.responses);
   if (certificate.range.up_to == 0.0) return;
   file.write("certificate/bounds", certificate.bounds, "1");
   write_counts(file, certificate);
@@ -674,11 +640,7 @@ Certificate read_certificate(const files::Reader& file)
   }
   if (file.contains("certificate/condition_K_ss"))
     certificate.condition = file.real("certificate/condition_K_ss");
-  if (file.contains("certificate/responses")) {
-    certificate.responses = {.up_to = file.real("certificate/responses/up_to"),
-                             .error = file.real("certificate/responses/error"),
-                             .loads = file.texts("certificate/responses/loads")};
-  }
+  certificate.responses = read_if_any<ResponseCheck>(file, "certificate/responses");
   if (!file.contains("certificate/counts")) return certificate;
   certificate.bounds = file.vector("certificate/bounds");
   check_length(file, "certificate/bounds", certificate.bounds, certificate);
@@ -692,34 +654,12 @@ namespace chladni::mbs_export::file_parts {
 
 void write_provenance(files::Writer& file, const Provenance& provenance)
 {
-  file.write("provenance/scene", provenance.scene);
-  file.write("provenance/mesh_checksum", provenance.mesh_checksum);
-  file.write("provenance/versions", provenance.versions);
-  file.write("provenance/options", provenance.options);
-  file.write("provenance/ranks", std::int64_t{provenance.ranks}, "1");
-  const auto write_if_any = [&](const char* name, const std::string& text) {
-    if (!text.empty()) file.write(name, text);
-  };
-  write_if_any("provenance/reduction_scene", provenance.reduction_scene);
-  write_if_any("provenance/body_scene", provenance.body_scene);
-  write_if_any("provenance/mesh_file_digest", provenance.mesh_file_digest);
-  write_if_any("provenance/scene_file", provenance.scene_file);
+  files::write_fields(file, "provenance", provenance);
 }
 
 Provenance read_provenance(const files::Reader& file)
 {
-  const auto optional_text = [&](const char* name) {
-    return file.contains(name) ? file.text(name) : std::string();
-  };
-  return {.scene = file.text("provenance/scene"),
-          .mesh_checksum = file.text("provenance/mesh_checksum"),
-          .versions = file.text("provenance/versions"),
-          .options = file.text("provenance/options"),
-          .ranks = read_count(file, "provenance/ranks"),
-          .reduction_scene = optional_text("provenance/reduction_scene"),
-          .body_scene = optional_text("provenance/body_scene"),
-          .mesh_file_digest = optional_text("provenance/mesh_file_digest"),
-          .scene_file = optional_text("provenance/scene_file")};
+  return files::read_fields<Provenance>(file, "provenance");
 }
 
 Provenance read_provenance(const std::filesystem::path& file)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/files/fields.hpp"
 #include "common/files/hdf5.hpp"
 #include "mbs_export/certificate.hpp"
 #include "mbs_export/inertia.hpp"
@@ -80,6 +81,88 @@ const std::string& link_name(const std::string& name);
 
 namespace chladni::mbs_export {
 
+/// What of some groups is stored; see fields.hpp.
+constexpr auto fields_of(std::type_identity<Provenance>)
+{
+  using files::Field, files::Presence;
+  using T = Provenance;
+  constexpr auto if_any = Presence::if_any;
+  return std::tuple{Field{"scene", "", &T::scene},
+                    Field{"mesh_checksum", "", &T::mesh_checksum},
+                    Field{"versions", "", &T::versions},
+                    Field{"options", "", &T::options},
+                    Field{"ranks", "1", &T::ranks},
+                    Field{"reduction_scene", "", &T::reduction_scene, "", if_any},
+                    Field{"body_scene", "", &T::body_scene, "", if_any},
+                    Field{"mesh_file_digest", "", &T::mesh_file_digest, "", if_any},
+                    Field{"scene_file", "", &T::scene_file, "", if_any}};
+}
+
+constexpr auto fields_of(std::type_identity<Preparation>)
+{
+  using files::Field;
+  using T = Preparation;
+  return std::tuple{Field{"condition_directions", "1", &T::condition_directions},
+                    Field{"rigid_residual", "1", &T::rigid_residual},
+                    Field{"constrained_modes", "1", &T::n_constrained_modes},
+                    Field{"partner_modes", "1", &T::n_partners},
+                    Field{"interface_modes_dropped", "1", &T::n_interface_dropped},
+                    Field{"massless_coordinates", "1", &T::n_massless}};
+}
+
+constexpr auto fields_of(std::type_identity<Condensation>)
+{
+  using files::Field;
+  using T = Condensation;
+  constexpr auto check = +[](const files::Reader& file, const std::string& name, const double& x) {
+    if (!(x > 0.0)) file.fail(name, "expected a positive frequency");
+  };
+  return std::tuple{Field{"brake", "", &T::brake},
+                    Field{"highest", "rad/s", &T::highest, "", files::Presence::always, check},
+                    Field{"tolerance", "1", &T::tolerance}, Field{"error", "1", &T::error}};
+}
+
+constexpr auto fields_of(std::type_identity<SelectionStep>)
+{
+  using files::Field;
+  using T = SelectionStep;
+  return std::tuple{Field{"added", "", &T::added}, Field{"modes", "1", &T::n_modes},
+                    Field{"interface_modes", "1", &T::n_interface}, Field{"error", "1", &T::error}};
+}
+
+constexpr auto fields_of(std::type_identity<SelectionTable>)
+{
+  using files::Field;
+  using T = SelectionTable;
+  return std::tuple{Field{"tolerance", "1", &T::error},
+                    Field{"error_of_reduction", "1", &T::of_reduction},
+                    Field{"highest_frequency", "rad/s", &T::Omega_max},
+                    Field{"loads", "", &T::loads},
+                    Field{"modes_only", "", &T::modes_only},
+                    Field{"with_interface_modes", "", &T::with_interface_modes}};
+}
+
+constexpr auto fields_of(std::type_identity<ResponseCheck>)
+{
+  using files::Field;
+  using T = ResponseCheck;
+  return std::tuple{Field{"up_to", "rad/s", &T::up_to}, Field{"error", "1", &T::error},
+                    Field{"loads", "", &T::loads}};
+}
+
+/// A group that may be absent.
+template <files::Stored T>
+void write_if_any(files::Writer& file, const std::string& group, const std::optional<T>& x)
+{
+  if (x) files::write_fields(file, group, *x);
+}
+
+template <files::Stored T>
+std::optional<T> read_if_any(const files::Reader& file, const std::string& group)
+{
+  return file.contains(group) ? std::optional(files::read_fields<T>(file, group)) : std::nullopt;
+}
+
 /// The value of the attribute `format` of a body file.
 inline constexpr auto body_format = "chladni-body";
 
@@ -133,26 +216,7 @@ void write_provenance(files::Writer& file, const Provenance& provenance);
 Provenance read_provenance(const files::Reader& file);
 Provenance read_provenance(const std::filesystem::path& file);
 
-/// Writes the group `condensation`; nothing if there is none.
-void write_condensation(files::Writer& file, const std::optional<Condensation>& condensation);
-
-/// Reads the group `condensation`; absent if the file has none.
-/// @throws chladni::Error naming the dataset and what was expected.
-std::optional<Condensation> read_condensation(const files::Reader& file);
-
 }  // namespace chladni::mbs_export::file_parts
-
-/// The group `selection` of the body file (docs/reference/file_formats.md).
-
-namespace chladni::mbs_export {
-
-void write_selection(files::Writer& file, const SelectionTable& table);
-
-/// Reads the group; absent if no tolerance chose the modes.
-/// @throws chladni::Error as files::Reader.
-std::optional<SelectionTable> read_selection(const files::Reader& file);
-
-}  // namespace chladni::mbs_export
 
 /// The parts of the reduced file about masters that are harmonics of rings
 /// (docs/reference/file_formats.md). They are absent if each master is a DOF of a node.
