@@ -114,6 +114,7 @@ BENCHMARKS = [
     ("solid-disc", "One disc as a shell and as a solid", script("squeal/solid_disc.py"), "solid_disc"),
     ("condensed", "Small bodies for one brake", script("squeal/condensed_bodies.py"), "condensed_bodies"),
     ("told-errors", "Printed errors of growth rates and critical speeds", script("squeal/told_errors.py"), "told_errors"),
+    ("friction-matrices", "Unstable eigenvalues of matrices with friction", script("squeal/friction_matrices.py"), "friction_matrices"),
     ("response-modes", "Response modes", script("squeal/response_modes.py"), "response_modes"),
     ("sound", "Sound", sound, "sound_benchmarks"),
     ("source", "The figures of the source", script("source/gallery.py"), "gallery"),

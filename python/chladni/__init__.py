@@ -14,7 +14,8 @@ from chladni.scene import Run, Scene, sweep
 
 Error.__module__ = "chladni"
 
-__all__ = ["Array", "CMS", "Error", "File", "Group", "Reduction", "Run", "Scene", "open", "reduce", "samples", "sweep", "write_samples"]
+__all__ = ["Array", "CMS", "ComplexEigenvalues", "Error", "File", "Group", "Reduction", "Run", "Scene", "complex_eigenvalues", "open", "reduce",
+           "samples", "sweep", "write_samples"]  # fmt: skip
 
 open = open_file
 
@@ -24,10 +25,10 @@ _NEEDS_PETSC = "needs python3-petsc4py, python3-slepc4py and a build with PETSc"
 
 def __getattr__(name):
     """What needs PETSc is loaded when it is first asked for."""
-    if name in ("CMS", "Reduction", "reduce"):
+    if name in ("CMS", "Reduction", "reduce", "ComplexEigenvalues", "complex_eigenvalues"):
         try:
-            from chladni import reduction
+            from chladni import eigenvalues, reduction
         except ImportError as missing:
-            raise ImportError(f"{missing}; the reduction {_NEEDS_PETSC}") from None
-        return getattr(reduction, name)
+            raise ImportError(f"{missing}; it {_NEEDS_PETSC}") from None
+        return getattr(reduction if hasattr(reduction, name) else eigenvalues, name)
     raise AttributeError(f"module 'chladni' has no attribute {name!r}")
