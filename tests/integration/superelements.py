@@ -131,34 +131,43 @@ def with_mixed_modes(A, n_masters):
     return T.T @ A @ T
 
 
+LAYOUTS = ("binary", "binary_big_endian", "binary_sparse", "binary_sparse_big_endian", "binary_bigmat", "text_sparse", "text_bigmat")
+
+
 def op4_bytes(matrices, layout):
-    """KAA, MAA as other programs write them."""
-    order = ">" if layout == "big-endian" else "<"
+    """KAA, MAA as other programs write them: each column one string of values, or two that follow what tells their rows."""
+    order, is_big = ">" if "big_endian" in layout else "<", "bigmat" in layout
+
+    def record(*parts):
+        body = b"".join(parts)
+        return struct.pack(order + "i", len(body)) + body + struct.pack(order + "i", len(body))
+
     data = b""
     for name, A in matrices:
         n = len(A)
-        if layout in ("little-endian", "big-endian"):
-            head = struct.pack(order + "4i", n, n, 6, 2) + f"{name:8}".encode()
-            data += struct.pack(order + "i", 24) + head + struct.pack(order + "i", 24)
+        half = n // 2  # two strings, none of which is empty
+        strings = [(row, length) for row, length in ((0, half), (half, n - half)) if length > 0]
+        words = sum(2 * length + (2 if is_big else 1) for _, length in strings)
+        heads = [(2 * length + 1, row + 1) if is_big else (row + 1 + 65536 * (2 * length + 1),) for row, length in strings]
+        if "binary" in layout:
+            data += record(struct.pack(order + "4i", n, -n if is_big else n, 6, 2), f"{name:8}".encode())
             for j in range(n):
-                body = struct.pack(order + "3i", j + 1, 1, 2 * n) + struct.pack(f"{order}{n}d", *A[:, j])
-                data += struct.pack(order + "i", len(body)) + body + struct.pack(order + "i", len(body))
-            body = struct.pack(order + "3i", n + 1, 1, 2) + struct.pack(order + "d", 2.0**0.5)
-            data += struct.pack(order + "i", len(body)) + body + struct.pack(order + "i", len(body))
+                if layout.startswith(("binary_sparse", "binary_bigmat")):
+                    parts = [struct.pack(f"{order}{len(head)}i{length}d", *head, *A[row : row + length, j])
+                             for head, (row, length) in zip(heads, strings)]  # fmt: skip
+                    data += record(struct.pack(order + "3i", j + 1, 0, words), *parts)
+                else:
+                    data += record(struct.pack(order + "3i", j + 1, 1, 2 * n), struct.pack(f"{order}{n}d", *A[:, j]))
+            data += record(struct.pack(order + "3i", n + 1, 1, 2), struct.pack(order + "d", 2.0**0.5))
             continue
-        big = layout == "bigmat"
-        text = f"{n:8}{-n if big else n:8}{6:8}{2:8}{name:8}1P,3E23.16\n"
+        text = f"{n:8}{-n if is_big else n:8}{6:8}{2:8}{name:8}1P,3E23.16\n"
         for j in range(n):
-            half = n // 2  # two strings, none of which is empty
-            strings = [(row, length) for row, length in ((0, half), (half, n - half)) if length > 0]
-            words = sum(2 * length + (2 if big else 1) for _, length in strings)
             text += f"{j + 1:8}{0:8}{words:8}\n"
-            for row, length in strings:
-                text += f"{2 * length + 1:8}{row + 1:8}\n" if big else f"{row + 1 + 65536 * (2 * length + 1):8}\n"
+            for head, (row, length) in zip(heads, strings):
+                text += "".join(f"{word:8}" for word in head) + "\n"
                 values = [f"{v:23.16E}" for v in A[row : row + length, j]]
                 text += "".join("".join(values[k : k + 3]) + "\n" for k in range(0, length, 3))
-        text += f"{n + 1:8}{1:8}{1:8}\n{2.0**0.5:23.16E}\n"
-        data += text.encode()
+        data += (text + f"{n + 1:8}{1:8}{1:8}\n{2.0**0.5:23.16E}\n").encode()
     return data
 
 
@@ -196,7 +205,7 @@ def others_writers(programs, folder, expected):
     pairs = "".join(f"ASET,{n},{c + 1}\n" for n, c in labels)
     modal = f"QSET1,0,{first},THRU,{first + n_modes - 1}\nSPOINT,{first},THRU,{first + n_modes - 1}\n"
     K, M = (with_mixed_modes(A, len(labels)) for A in (K, M))
-    for layout in ("little-endian", "big-endian", "sparse", "bigmat"):
+    for layout in LAYOUTS:
         (folder / f"{layout}.op4").write_bytes(op4_bytes((("KAA", K), ("MAA", M), ("PA", np.zeros((1, 1)))), layout))
         (folder / f"{layout}.pch").write_text(grids(expected, 1000.0) + pairs + modal)
         run(programs / "chladni", "import", folder / f"{layout}.op4", "--length-unit", "mm", "--output", out / f"{layout}.toml")
@@ -230,7 +239,7 @@ def bad_superelements(programs, folder, expected):
     turned[second] = turned[second][:40] + f"{1e3:16.9E}"
     yield from expect("unsymmetric", "\n".join(turned), "DMIG MAAX", "other side of the diagonal")
     labels, K, M = in_millimetres(expected)
-    op4 = op4_bytes((("KAA", K), ("MAA", M)), "sparse")
+    op4 = op4_bytes((("KAA", K), ("MAA", M)), "text_sparse")
     yield from expect("other rows", grids(expected, 1000.0) + "ASET,1,1\n", "KAA is", "1 components", file="bad.op4", op4=op4)
     yield from expect("cut off", good, "bad.op4", "ends within a matrix", file="bad.op4", op4=op4[: op4.rindex(b"\n", 0, len(op4) // 3) + 1])
     (folder / "alone.op4").write_bytes(op4)
