@@ -54,7 +54,7 @@ enum class NodeShares {
 /// that transmits compression only.
 struct FaceContact {
   PartNodes face;
-  /// Height of the nodes above the contact plane: half the plate plus the lining, m.
+  /// Height of the nodes above the contact plane: half the plate plus the lining; or 0, m.
   double height;
   FaceQuantity stiffness;     ///< N/m, or N/m^3
   FaceQuantity damping{0.0};  ///< N s/m, or N s/m^3

@@ -6,7 +6,7 @@ namespace {
 using enum KeyKind;
 
 constexpr Admissible part_place = usually(in("m"), 10.0, "it is in m; is it in mm?");
-constexpr Admissible part_length = usually(positive("m"), 1.0, "it is in m; is it in mm?");
+constexpr Admissible part_length = usually(not_negative("m"), 1.0, "it is in m; is it in mm?");
 constexpr Admissible lining_friction =
     usually(not_negative(), 2.0, "it is a pure number, of linings 0.2 to 0.7");
 
@@ -37,7 +37,8 @@ constexpr Key assembly_rows[] = {
     {"contact", tables, "required for an assembly", "a lining between a part and the disc"},
     {"contact.face", text, "required", "\"PART.SET\", the nodes of the face"},
     {"contact.height", number, "required",
-     "of these nodes above the contact plane: half of the plate and the lining", part_length},
+     "of these nodes above the contact plane: half of the plate and the lining; 0 of a solid",
+     part_length},
     {"contact.stiffness", number, "or stiffness_per_area", "of the whole lining", positive("N/m")},
     {"contact.stiffness_per_area", number, "or stiffness",
      "of the lining: Young's modulus under plane strain over its thickness", positive("N/m^3")},

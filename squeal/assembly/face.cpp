@@ -7,7 +7,6 @@
 #include <complex>
 #include <functional>
 #include <numbers>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -41,7 +40,11 @@ double side_of(const FaceContact& contact, const Part& part, const DiscFaces& di
   if (!disc.are_checked) return sigma;
   const Eigen::RowVectorXd gap = (sigma * (z.array() - plane) - contact.height).matrix();
   Eigen::Index worst = 0;
-  if (gap.cwiseAbs().maxCoeff(&worst) <= touching * contact.height) return sigma;
+  const double most =
+      contact.height > 0.0
+          ? touching * contact.height
+          : within * part.positions.topRows(2)(Eigen::all, nodes).colwise().norm().mean();
+  if (gap.cwiseAbs().maxCoeff(&worst) <= most) return sigma;
   throw Error(fmt::format(
       "{}.face: {} does not touch the disc: with height = {:.6g} m its face {} by up to {:.6g} m "
       "(the contact plane is z = {:.6g} m, its nodes lie at z = {:.6g} to {:.6g} m); check "
@@ -52,12 +55,28 @@ double side_of(const FaceContact& contact, const Part& part, const DiscFaces& di
       z.minCoeff(), z.maxCoeff(), part.name));
 }
 
-/// Lagrange's polynomials through the radii of the rings that are nearest, at r.
-Eigen::VectorXd ring_parts(const std::vector<RingPlace>& rings, double r)
+bool at_one_height(const RingPlace& a, const RingPlace& b)
+{
+  return std::abs(a.height - b.height) <= within * std::max(a.radius, b.radius);
+}
+
+/// The rings of the surface that is nearest to a contact plane: all rings, or those of one of two
+/// faces.
+std::vector<std::size_t> rings_near(const std::vector<RingPlace>& rings, double plane)
+{
+  const RingPlace& nearest = *std::ranges::min_element(
+      rings, {}, [&](const RingPlace& ring) { return std::abs(ring.height - plane); });
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < rings.size(); ++i)
+    if (at_one_height(rings[i], nearest)) found.push_back(i);
+  return found;
+}
+
+/// Lagrange's polynomials through the radii of those of some rings that are nearest, at r.
+Eigen::VectorXd ring_parts(const std::vector<RingPlace>& rings, std::vector<std::size_t> order,
+                           double r)
 {
   constexpr std::size_t n_used = 4;
-  std::vector<std::size_t> order(rings.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return std::abs(rings[i].radius - r); });
   order.resize(std::min(n_used, order.size()));
   Eigen::VectorXd parts = Eigen::VectorXd::Zero(std::ssize(rings));
@@ -70,15 +89,18 @@ Eigen::VectorXd ring_parts(const std::vector<RingPlace>& rings, double r)
   return parts;
 }
 
-void check_radius(const DiscFaces& disc, double r, const std::string& what)
+void check_radius(const DiscFaces& disc, const std::vector<std::size_t>& rings, double r,
+                  const std::string& what)
 {
-  const auto [inner, outer] = std::ranges::minmax_element(disc.rings, {}, &RingPlace::radius);
-  const double beyond = std::max(inner->radius - r, r - outer->radius);
-  if (beyond <= within * outer->radius) return;
+  const auto radius = [&](std::size_t i) { return disc.rings[i].radius; };
+  const double inner = radius(std::ranges::min(rings, {}, radius));
+  const double outer = radius(std::ranges::max(rings, {}, radius));
+  const double beyond = std::max(inner - r, r - outer);
+  if (beyond <= within * outer) return;
   throw Error(
       fmt::format("{} has a node at the radius {:.6g} m, {:.6g} m beyond the rings of the disc, "
                   "which lie at {:.6g} to {:.6g} m; name rings in squeal.rings that enclose it",
-                  what, r, beyond, inner->radius, outer->radius));
+                  what, r, beyond, inner, outer));
 }
 
 /// A face around the z axis.
@@ -142,25 +164,26 @@ void put_shares(std::vector<FaceNode>& nodes, const FaceContact& contact, bool i
 DiscFaces disc_faces(const AssemblyOptions& options, const InertialDisc& disc)
 {
   DiscFaces faces{.rings = ring_places(disc), .planes = {}, .are_checked = true};
-  const RingPlace& first = faces.rings.front();
+  const auto [low, high] = std::ranges::minmax_element(faces.rings, {}, &RingPlace::height);
   for (auto ring = faces.rings.begin(); ring != faces.rings.end(); ++ring) {
     const auto same = std::find_if(faces.rings.begin(), ring, [&](const RingPlace& other) {
-      return std::abs(other.radius - ring->radius) <= within * first.radius;
+      return std::abs(other.radius - ring->radius) <= within * ring->radius &&
+             at_one_height(other, *ring);
     });
-    if (same == ring) continue;
-    throw Error(fmt::format(
-        "squeal.rings: \"{}\" and \"{}\" lie on one circle of radius {:.6g} m; name one of them",
-        same->name, ring->name, ring->radius));
-  }
-  for (const RingPlace& ring : faces.rings)
-    if (!(std::abs(ring.height - first.height) <= within * first.radius)) {
+    if (same != ring) {
       throw Error(fmt::format(
-          "squeal.rings: \"{}\" lies at z = {:.6g} m, but \"{}\" at {:.6g} m; an assembly takes "
-          "rings of one surface",
-          first.name, first.height, ring.name, ring.height));
+          "squeal.rings: \"{}\" and \"{}\" lie on one circle of radius {:.6g} m; name one of them",
+          same->name, ring->name, ring->radius));
     }
-  const double half = 0.5 * options.thickness;
-  faces.planes = options.planes.value_or(std::array{first.height - half, first.height + half});
+    if (!at_one_height(*ring, *low) && !at_one_height(*ring, *high)) {
+      throw Error(fmt::format(
+          "squeal.rings: \"{}\" lies at z = {:.6g} m, between those at {:.6g} and {:.6g} m; an "
+          "assembly takes rings of one surface, or of the two faces of a solid",
+          ring->name, ring->height, low->height, high->height));
+    }
+  }
+  const double middle = 0.5 * (low->height + high->height), half = 0.5 * options.thickness;
+  faces.planes = options.planes.value_or(std::array{middle - half, middle + half});
   return faces;
 }
 
@@ -169,29 +192,32 @@ std::vector<FaceNode> face_nodes(const FaceContact& contact, const Part& part,
 {
   const std::vector<int>& set = nodes_of(part, contact.face.set, key + ".face");
   const std::string what = fmt::format("{}.face: {}", key, name_of_face(contact, part));
-  // Its points move by the tilt of the plate, too; they do not feel it turn about z.
-  require_components(part, contact.face.set, {true, true, true, true, true, false}, key + ".face",
-                     "a face needs displacements and tilts: keep them in the reduced system, or "
-                     "give it nodes of shells or rigid couplings");
+  // Points below it move by the tilt of the plate, too; they do not feel it turn about z.
+  const bool tilts = contact.height > 0.0;
+  require_components(part, contact.face.set, {true, true, true, tilts, tilts, false}, key + ".face",
+                     "a face needs displacements and, above the contact plane, tilts: keep them in "
+                     "the reduced system, or give it nodes of shells or rigid couplings, or those "
+                     "of a solid in the contact plane with height = 0");
   const double sigma = side_of(contact, part, disc, set, key);
   const Eigen::Matrix3Xd x = part.positions(Eigen::seqN(0, 3), set);
   const Angles angles = angles_about_middle(x);
   const auto& [lower, upper] = disc.planes;
   const double plane = sigma > 0.0 ? upper : lower;
+  const std::vector<std::size_t> rings = rings_near(disc.rings, plane);
   std::vector<FaceNode> nodes;
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     const double r = std::hypot(x(0, i), x(1, i));
-    if (disc.are_checked) check_radius(disc, r, what);
+    if (disc.are_checked) check_radius(disc, rings, r, what);
     nodes.push_back({.node = set[static_cast<std::size_t>(i)],
                      .height = contact.height,
                      .angle = angles.values[i],
                      .sigma = sigma,
                      .place = {.radius = r,
                                .plane = plane - 0.5 * (lower + upper),
-                               .distance = plane - disc.rings.front().height},
+                               .distance = plane - disc.rings[rings.front()].height},
                      .share = 0.0,
                      .area = 0.0,
-                     .ring_parts = ring_parts(disc.rings, r)});
+                     .ring_parts = ring_parts(disc.rings, rings, r)});
   }
   put_shares(nodes, contact, angles.is_wide(), what);
   return nodes;

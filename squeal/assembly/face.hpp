@@ -32,7 +32,7 @@ struct DiscFaces {
 };
 
 /// The nodes of a face on the disc. The motion of the disc between its rings is interpolated by the
-/// polynomial in r through the nearest rings, at most four.
+/// polynomial in r through the nearest rings, at most four; of a solid, through those of its face.
 /// @param key  key of the scene for messages, such as "contact[2]"
 /// @throws chladni::Error naming the key, for a set that the part does not have, a face that does
 ///         not touch a contact plane or lies beyond the rings (with the distance), nodes that
@@ -42,8 +42,8 @@ std::vector<FaceNode> face_nodes(const FaceContact& contact, const Part& part,
                                  const DiscFaces& disc, const std::string& key);
 
 /// Contact planes of the disc and its rings.
-/// @throws chladni::Error when the rings lie at different heights, or two rings have the same
-///         radius.
+/// @throws chladni::Error when the rings lie at more than two heights, or two of one height have
+///         the same radius.
 DiscFaces disc_faces(const AssemblyOptions& options, const InertialDisc& disc);
 
 /// Motion of the disc at a node for each mode: [n x 3 or 5] W, W_r, W_t and, if used, V_r, V_t.

@@ -297,6 +297,48 @@ TEST(Faces, TakeACubicOfTheRadiusFromFourRings)
   }
 }
 
+/// A solid pad on a solid disc, whose nodes have no rotations and touch.
+TEST(Faces, OfSolidsLieOnTheRingsOfTheirSide)
+{
+  DiscFaces disc{.rings = {}, .planes = {-half_disc, half_disc}};
+  for (const double z : {-half_disc, half_disc})
+    for (const double radius : {0.11, 0.15})
+      disc.rings.push_back({.name = "", .radius = radius, .height = z});
+  std::vector<Eigen::Vector3d> face;
+  for (const double r : {0.12, 0.13, 0.14}) face.emplace_back(r - ring_radius, 0.0, 0.0);
+  mbs_export::ModalBody pad = plate_body(plate, face);
+  for (Eigen::Index row = 0; row < pad.attachment_modes.rows(); ++row)
+    if (row % 6 > 2) pad.attachment_modes.row(row).setZero();
+  FaceContact lining = lining_of("upper");
+  lining.height = 0.0;
+  for (const double sigma : {-1.0, 1.0}) {
+    const Part part = placed(part_at("upper", sigma * half_disc), pad);
+    const std::vector<FaceNode> nodes = face_nodes(lining, part, disc, "contact[1]");
+    ASSERT_EQ(nodes.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double part_of_outer = double(i + 1) / 4.0;  // linear in r between two rings
+      const Eigen::Index first = sigma > 0.0 ? 2 : 0;
+      Eigen::Vector4d parts = Eigen::Vector4d::Zero();
+      parts.segment<2>(first) << 1.0 - part_of_outer, part_of_outer;
+      EXPECT_LT((nodes[i].ring_parts - parts).norm(), 1e-12);
+      EXPECT_EQ(nodes[i].place.distance, 0.0);
+      EXPECT_EQ(nodes[i].sigma, sigma);
+    }
+  }
+  const auto said = [&](double z) -> std::string {
+    try {
+      face_nodes(lining, placed(part_at("upper", z), pad), disc, "contact[1]");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(said(half_disc + 1e-3).find("is away from it by up to 0.001 m"), std::string::npos);
+  lining.height = height;
+  EXPECT_NE(said(half_disc + height).find("with height = 0"), std::string::npos)
+      << "points below nodes without tilts";
+}
+
 TEST(Assembly, VariesWhatAllLiningsHave)
 {
   const AssemblyBrake brake(two_plates(), bodies_of_two_plates());
