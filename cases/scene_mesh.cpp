@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -12,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/fe_model.hpp"
 #include "cases/ranks.hpp"
 #include "common/petsc.hpp"
 #include "mesh/element_types.hpp"
@@ -19,6 +21,7 @@
 #include "mesh/mesh_archive.hpp"
 #include "mesh/sectors.hpp"
 #include "plate/refinement/refined_mesh.hpp"
+#include "plate/sections/sections.hpp"
 #include "report/progress.hpp"
 
 namespace chladni::cases {
@@ -114,11 +117,56 @@ void take_edges_of_nodes(mesh::Mesh& mesh, const mesh::MeshOptions& options)
       fmt::join(taken, ", ")));
 }
 
+/// A node that lies further from its place on an edge than half the edge: those of a semicircle are
+/// as far. The order of the nodes is another one then, and the Jacobian may be positive by chance.
+void check_edges(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element)
+{
+  for (const std::vector<int>& edge : mesh::edges_of(block, element)) {
+    const auto &a = mesh.positions[std::size_t(edge.front())],
+               &b = mesh.positions[std::size_t(edge.back())];
+    const double most = 0.5 * mesh::norm(mesh::minus(b, a));
+    for (std::size_t i = 1; i + 1 < edge.size(); ++i) {
+      const double share = double(i) / double(edge.size() - 1);
+      std::array<double, 3> off = mesh.positions[std::size_t(edge[i])];
+      for (std::size_t c = 0; c < 3; ++c) off[c] -= std::lerp(a[c], b[c], share);
+      if (mesh::norm(off) <= most) continue;
+      const auto number = [&](int node) { return mesh.node_numbers[std::size_t(node)]; };
+      throw Error(fmt::format(
+          "element {}: its node {} is not on the edge between its nodes {} and {}; put the nodes "
+          "into the order of the file's format",
+          block.numbers[std::size_t(element)], number(edge[i]), number(edge.front()),
+          number(edge.back())));
+    }
+  }
+}
+
+/// Elements without a section, solids whose nodes are no element, and those without volume at an
+/// integration point are named with their file.
+void check_elements(const scene::Scene& scene, const mesh::Mesh& mesh)
+{
+  if (mesh.matrices) return;  // its elements are no model
+  try {
+    for (const mesh::ElementBlock& block : mesh.blocks) {
+      if (!mesh::is_solid(block.shape)) continue;
+      plate::check_solid_exists(block.shape, block.order);
+      for (int e = 0; e < block.n_elements(); ++e) {
+        plate::solid_of_mesh(mesh, block, e);
+        check_edges(mesh, block, e);
+      }
+    }
+    plate::map_sections(mesh, structure_of(scene));
+  } catch (const Error& error) {
+    const std::string what = error.what(), file = scene.mesh.file.value_or("the mesh");
+    throw Error(what.find(file) != std::string::npos ? what : fmt::format("{}: {}", file, what));
+  }
+}
+
 }  // namespace
 
 mesh::Mesh mesh_scene(const scene::Scene& scene)
 {
   mesh::Mesh mesh = mesh::generate(scene.mesh);
+  check_elements(scene, mesh);
   if (!scene.accuracy || has_size(scene.mesh)) return mesh;
   take_edges_of_nodes(mesh, scene.mesh);
   const auto halvings = static_cast<int>(std::lround(-std::log2(scene.mesh.size_factor)));

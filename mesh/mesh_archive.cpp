@@ -302,6 +302,7 @@ void transfer_options(auto& archive, auto& options)
   archive.each(options.solid_groups, [](auto& a, auto& name) { a(name); });
   archive.each(options.coupled_groups, [](auto& a, auto& name) { a(name); });
   archive(options.doubled_elements);
+  archive(options.sectors);
   archive.optional(options.matrices, [](auto& a, auto& files) {
     auto& [stiffness, mass, damping, structural, dofs, force_unit] = files;
     a.all(stiffness, mass, damping, structural, dofs, force_unit);

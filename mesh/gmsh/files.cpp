@@ -10,6 +10,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <string_view>
@@ -297,15 +298,53 @@ std::vector<Entity> add_ring_arcs(const RingOptions& ring)
   return arcs;
 }
 
+/// Length, area or volume of an entity, and where it is.
+struct Extent {
+  double content;
+  std::array<double, 3> centre;
+};
+
+Extent extent_of(const Entity& entity)
+{
+  Extent of{};
+  occ::getMass(entity.first, entity.second, of.content);
+  occ::getCenterOfMass(entity.first, entity.second, of.centre[0], of.centre[1], of.centre[2]);
+  return of;
+}
+
+Extent sum_of(const std::vector<Entity>& parts)
+{
+  Extent sum{};
+  for (const Entity& part : parts) {
+    const Extent of = extent_of(part);
+    sum.content += of.content;
+    for (std::size_t c = 0; c < 3; ++c) sum.centre[c] += of.content * of.centre[c];
+  }
+  for (double& x : sum.centre) x /= sum.content > 0.0 ? sum.content : 1.0;
+  return sum;
+}
+
+/// Whether two entities of a dimension are one, by what integrals over curved faces leave of them.
+bool is_same(int dimension, const Extent& a, const Extent& b)
+{
+  constexpr double digits = 1e-3;
+  const auto& [x, y, z] = a.centre;
+  return std::abs(a.content - b.content) <= digits * a.content &&
+         std::hypot(b.centre[0] - x, b.centre[1] - y, b.centre[2] - z) <=
+             digits * std::pow(a.content, 1.0 / dimension);
+}
+
 /// Makes all volumes and surfaces meet in common surfaces and curves, with the rings' arcs among
 /// them.
 /// @return what became of each volume, surface and curve of the file
 std::map<Entity, std::vector<Entity>> join(const std::vector<RingOptions>& rings)
 {
   std::vector<Entity> objects;
+  std::vector<Extent> extents;
   for (const int dimension : {3, 2, 1}) {
     const std::vector<Entity> entities = entities_of(dimension);
     objects.insert(objects.end(), entities.begin(), entities.end());
+    std::ranges::transform(entities, std::back_inserter(extents), extent_of);
   }
   std::vector<Entity> tools;
   for (const RingOptions& ring : rings) {
@@ -317,8 +356,22 @@ std::map<Entity, std::vector<Entity>> join(const std::vector<RingOptions>& rings
   std::vector<std::vector<Entity>> parts;
   occ::fragment(objects, tools, all, parts);
   occ::synchronize();
+  std::array<std::vector<std::pair<Entity, Extent>>, 4> now;
+  for (const int dimension : {3, 2, 1})
+    for (const Entity& entity : entities_of(dimension))
+      now[std::size_t(dimension)].emplace_back(entity, extent_of(entity));
   std::map<Entity, std::vector<Entity>> became;
-  for (std::size_t i = 0; i < objects.size(); ++i) became[objects[i]] = parts[i];
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const int dimension = objects[i].first;
+    became[objects[i]] = parts[i];
+    if (is_same(dimension, extents[i], sum_of(parts[i]))) continue;
+    // Gmsh does not tell of what it left as it was, whose number may be that of another one now.
+    const auto& candidates = now[std::size_t(dimension)];
+    const auto same = std::ranges::find_if(
+        candidates, [&](const auto& one) { return is_same(dimension, extents[i], one.second); });
+    became[objects[i]].clear();
+    if (same != candidates.end()) became[objects[i]].push_back(same->first);
+  }
   return became;
 }
 
@@ -368,6 +421,31 @@ void add_groups(const MeshOptions& options, const std::vector<std::vector<Entity
   }
 }
 
+/// Lets Gmsh mesh the second cut face of a sector, or cut edge of surfaces, as the turned first
+/// one: sides of one body that a turn lays onto each other.
+void match_cuts(const MeshOptions& options)
+{
+  const int dimension = dimension_of_body(options) - 1;
+  std::vector<std::pair<int, Extent>> sides;
+  for (const auto& [dim, tag] : entities_of(dimension)) {
+    std::vector<int> above, below;
+    gmsh::model::getAdjacencies(dim, tag, above, below);
+    if (above.size() == 1) sides.emplace_back(tag, extent_of({dim, tag}));
+  }
+  const double turn = 2.0 * std::numbers::pi / options.sectors;
+  const double c = std::cos(turn), s = std::sin(turn);
+  for (const auto& [first, extent] : sides) {
+    const auto& x = extent.centre;
+    const Extent image{.content = extent.content,
+                       .centre = {c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]}};
+    const auto second = std::ranges::find_if(
+        sides, [&](const auto& other) { return is_same(dimension, image, other.second); });
+    if (second == sides.end() || second->first == first) continue;
+    gmsh::model::mesh::setPeriodic(dimension, {second->first}, {first},
+                                   {c, -s, 0, 0, s, c, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> open_step(const MeshOptions& options)
@@ -382,6 +460,7 @@ std::vector<std::string> open_step(const MeshOptions& options)
   for (const EntityGroup& group : options.groups) of_groups.push_back(find_entities(group));
   add_groups(options, of_groups, join(options.rings));
   if (options.element_size) set_sizes(*options.element_size);
+  if (options.sectors > 1) match_cuts(options);
   return {};
 }
 

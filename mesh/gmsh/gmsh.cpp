@@ -75,7 +75,8 @@ ElementType line_type(ElementType line, const std::vector<double>& local)
 /// A solid has nodes at its corners and on its edges; those of faces and of the inside are left
 /// out.
 /// @param local  parent coordinates of Gmsh's nodes
-ElementType solid_type(ElementType solid, int n_primary, const std::string& name,
+/// @param what   element and type, for an error
+ElementType solid_type(ElementType solid, int n_primary, const std::string& what,
                        const std::vector<double>& local)
 {
   const std::map<int, Shape> shapes{
@@ -83,9 +84,9 @@ ElementType solid_type(ElementType solid, int n_primary, const std::string& name
   const auto shape = shapes.find(n_primary);
   if (shape == shapes.end() || solid.order > 3) {
     throw Error(fmt::format(
-        "the mesh has solids of the type \"{}\"; Chladni takes hexahedra of order 1 to 3, "
-        "tetrahedra of order 1 and 2, and wedges of order 2",
-        name));
+        "{}; Chladni takes hexahedra of order 1 to 3, tetrahedra of order 1 and 2, and wedges of "
+        "order 2: mesh the volume there with tetrahedra",
+        what));
   }
   solid.shape = shape->second;
   constexpr double near = 1e-6;
@@ -101,7 +102,8 @@ ElementType solid_type(ElementType solid, int n_primary, const std::string& name
   return solid;
 }
 
-ElementType element_type(int type)
+/// @param first  number of an element of the type, for an error
+ElementType element_type(int type, std::size_t first)
 {
   std::string name;
   int dimension = 0;
@@ -111,12 +113,11 @@ ElementType element_type(int type)
   gmsh::model::mesh::getElementProperties(type, name, dimension, element.order, element.n_nodes,
                                           local, n_primary);
   if (dimension == 1) return line_type(element, local);
-  if (dimension == 3) return solid_type(element, n_primary, name, local);
+  const std::string what = fmt::format("element {} is of the type \"{}\"", first, name);
+  if (dimension == 3) return solid_type(element, n_primary, what, local);
   if (n_primary < 3 || n_primary > 4 || element.order > 4) {
     throw Error(
-        fmt::format("the mesh has elements of the type \"{}\"; Chladni takes triangles and "
-                    "quadrilaterals of order 1 to 4",
-                    name));
+        fmt::format("{}; Chladni takes triangles and quadrilaterals of order 1 to 4", what));
   }
   const bool quadrilateral = n_primary == 4;
   const int p = element.order;
@@ -323,7 +324,7 @@ void read_elements(Mesh& mesh, const NodeIndex& index, std::pair<int, int> entit
   std::vector<std::vector<std::size_t>> nodes;
   gmsh::model::mesh::getElements(types, numbers, nodes, entity.first, entity.second);
   for (std::size_t t = 0; t < types.size(); ++t) {
-    const ElementType type = element_type(types[t]);
+    const ElementType type = element_type(types[t], numbers[t].front());
     ElementBlock& block = block_of(mesh, type);
     for (std::size_t e = 0; e < numbers[t].size(); ++e) {
       block.numbers.push_back(static_cast<std::int64_t>(numbers[t][e]));

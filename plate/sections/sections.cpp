@@ -119,9 +119,11 @@ SectionMap map_sections(const mesh::Mesh& mesh, const Structure& structure)
     for (int e = 0; e < block.n_elements(); ++e) {
       const int section = index_of_section(map, block, e);
       if (section < 0) {
-        throw Error(
-            fmt::format("element {} has no section: name its physical group in a [[section]]",
-                        block.numbers[e]));
+        const int group = block.group[std::size_t(e)];
+        throw Error(fmt::format("element {} has no section: {} in a [[section]]", block.numbers[e],
+                                group < 0 ? "it is in no group; put it into one and name this"
+                                          : fmt::format("name its group \"{}\"",
+                                                        mesh.groups[std::size_t(group)].name)));
       }
       if (kind_of(block) == Kind::beam)
         node_axes(element_positions(mesh, block, e), structure.beams[section]);

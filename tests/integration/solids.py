@@ -8,18 +8,20 @@ which agree with degree 7 to 1e-9. The sphere: Lamb's equations, roots of spheri
 
 import json
 import math
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from running import run, start, summary
+from running import changed, run, start, summary
 from solid_files import STEEL, Block, abaqus_file, ansys_file, gmsh_file, med_file, nastran_file, universal_file
 
 # Hz, of the free annulus: n = 2, 0, 3, 1, 2 in its plane, 2; those of n > 0 stand twice.
 ANNULUS = [736.9524731] * 2 + [1202.7887257] + [1760.0313898] * 2 + [2626.5887121] * 2
-IN_PLANE = [4405.6022377] * 2 + [4540.0313354] * 2
+# Those of n = 0 to 3 above, to 10 kHz.
+HIGHER = [4405.6022377, 4540.0313354, 5721.5742042, 6720.8721837, 6790.100641, 6986.0321628, 7140.6236037, 8454.6422576, 9713.4751692, 9862.7498642]
 # omega a / c_s of the sphere, nu = 0.3: torsion and spheroids of degree 2, five times each
 SPHERE = [2.5011326204093964] * 5 + [2.6462170348716625] * 5
 
@@ -79,15 +81,15 @@ def error(found, exact):
     return max(min(abs(f - e) / e for f in found) for e in exact)
 
 
-def annulus(programs, folder, most, size, order, layers, pattern="structured", exact=ANNULUS):
+def annulus(programs, folder, most, size, order, layers, pattern="structured", most_to_10_kHz=math.inf):
     scene = 'name = "annulus"\n' + GENERATED.format(size=size, order=order, layers=layers, pattern=pattern)
-    n_rigid, found = frequencies(programs, folder, scene + MATERIAL.format(group="disc", count=24, **IRON))
-    off = error(found, exact)
-    print(f"annulus, order {order}, {layers} layers, {pattern}: {off:.1e}")
+    n_rigid, found = frequencies(programs, folder, scene + MATERIAL.format(group="disc", count=40, **IRON))
+    off, higher = error(found, ANNULUS), error(found, HIGHER)
+    print(f"annulus, order {order}, {layers} layers, {pattern}: {off:.1e}, to 10 kHz {higher:.1e}")
     if n_rigid != 6:
         yield f"annulus of order {order}: {n_rigid} rigid motions"
-    if not off < most:
-        yield f"annulus of order {order}, {pattern}: error {off:.1e}, more than {most}"
+    if not (off < most and higher < most_to_10_kHz):
+        yield f"annulus of order {order}, {pattern}: error {off:.1e}, more than {most}, or {higher:.1e} to 10 kHz"
     lowest = min(f for f in found if f > 1.0)
     if lowest < ANNULUS[0] * (1.0 - 1e-9) and order > 1:
         yield f"annulus of order {order}: conforming elements are above the exact frequencies, found {lowest}"
@@ -288,6 +290,44 @@ ABAQUS_TYPES = {("tet", 1): ["C3D4"], ("tet", 2): ["C3D10", "C3D10M"], ("wedge",
                 ("hex", 1): ["C3D8", "C3D8I", "C3D8R"], ("hex", 2): ["C3D20", "C3D20R"]}  # fmt: skip
 
 
+def with_nodes_swapped(block):
+    """The .msh of a block whose first element has its first two nodes in the wrong order."""
+    lines = gmsh_file(block).splitlines()
+    at = lines.index("$Elements") + 2
+    words = lines[at].split()
+    words[5], words[6] = words[6], words[5]
+    return "\n".join([*lines[:at], " ".join(words), *lines[at + 1 :], ""])
+
+
+def bad_files(programs, folder):
+    """One sentence with the file, the element, and what to do."""
+    block = Block("hex", 2)
+    hexahedra = gmsh_file(block)
+    corners = " ".join(str(block.node(block.elements[0], c)) for c in "01")
+    elements = len(hexahedra[hexahedra.index("$Elements") :].splitlines()) - 3
+    with_edge = changed(hexahedra, ("PhysicalNames\n3\n", 'PhysicalNames\n4\n1 4 "edge"\n'), (f"$Elements\n{elements}\n", f"$Elements\n{elements + 1}\n"),
+                        ("$EndElements", f"{elements + 1} 1 2 4 4 {corners}\n$EndElements"))  # fmt: skip
+    cases = {
+        "inverted": (with_nodes_swapped(Block("hex", 1)), "modes", ["element 1 is degenerate or turned inside out", "repair the mesh"]),
+        "out of order": (with_nodes_swapped(Block("wedge", 2)), "modes", ["element 1: its node", "is not on the edge between its nodes", "order"]),
+        "no section": (changed(hexahedra, ("\n2 17 2 1 1", "\n2 17 2 4 4"), ("PhysicalNames\n3\n", 'PhysicalNames\n4\n3 4 "rest"\n')), "modes",
+                       ["element 2 has no section", '"rest"', "[[section]]"]),
+        "no face": (with_edge, "static", ['pressure on "edge"', "faces of solids"]),
+    }  # fmt: skip
+    for name, (text, command, words) in cases.items():
+        file = f"{name.replace(' ', '_')}.msh"
+        (folder / file).write_text(text)
+        scene = OF_A_FILE.format(file=file, body="body", root="root")
+        if command == "static":
+            scene = scene.replace("[modes]\ncount = 8\n", '[[load]]\ntype = "pressure"\ngroup = "edge"\npressure = 1e6\n[static]\n')
+        (folder / "bad.toml").write_text(scene)
+        said = run(programs / "chladni", command, folder / "bad.toml", "--output", folder / "bad", code=1)
+        if said.count("\n") != 1 or any(word not in said for word in [*words, *([file] if name != "no face" else [])]):
+            yield f"{name}: {said!r}"
+        if list((folder / "bad").glob("*")):
+            yield f"{name}: something was written"
+
+
 def files_of(block, folder):
     """Files of one block by name, with the groups of the body and of the held nodes there."""
     name = f"{block.shape}{block.order}"
@@ -387,7 +427,7 @@ Cylinder(2) = {0,0,-0.01, 0,0,0.02, 0.025};
 BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
 Physical Volume("disc") = {3};
 Physical Surface("inner_edge") = Surface In BoundingBox {-0.026,-0.026,-0.02, 0.026,0.026,0.02};
-Mesh.MeshSizeMax = 0.014;
+Mesh.MeshSizeMax = 0.02;
 """
 FOREIGN = """
 [mesh]
@@ -421,7 +461,7 @@ def rings_on_faces(programs, folder, mpirun):
         print(f"ring on a face{on}: {found}, with nodes {exact}")
         if not max(abs(f / e - 1.0) for f, e in zip(found, exact)) < 5e-3:  # the mesh of the example is coarse
             yield f"ring{on}: {found}, with nodes {exact}"
-        on_three = critical_values(programs, folder, scene[on], mpirun)
+        on_three = critical_values(programs, folder, scene[on], mpirun) if "width" in on else found
         if not max(abs(a / b - 1.0) for a, b in zip(found, on_three)) < 1e-8:
             yield f"ring{on}: {found}, on three ranks {on_three}"
     (folder / "scene.toml").write_text(scene[""])
@@ -432,7 +472,7 @@ def rings_on_faces(programs, folder, mpirun):
     modes = scene[', on = "face", width = 0.03']
     modes = modes[: modes.index("[interface]")] + support
     plain = modes[: modes.index("rings = [")] + modes[modes.index("[material.iron]") :]
-    (folder / "foreign.geo").write_text(FOREIGN_GEO.replace("0.014", "0.03"))
+    (folder / "foreign.geo").write_text(FOREIGN_GEO.replace("= 0.02;", "= 0.04;"))
     found = []
     for text in (modes, plain):
         (folder / "scene.toml").write_text(text + "mesh_errors = true\n")
@@ -441,6 +481,34 @@ def rings_on_faces(programs, folder, mpirun):
         with_rings, without = (one[key] for one in found)
         if not max(abs(a / b - 1.0) for a, b in zip(with_rings, without)) < most:
             yield f"rings change the {key} of the mesh: {with_rings}, without {without}"
+
+
+def brake(programs, folder):
+    """examples/brake with a disc of solids, which has rings in both faces, squeals as with one of shells."""
+    source = Path(__file__).parents[2] / "examples/brake"
+    for file in source.glob("*.[tg]*"):
+        (folder / file.name).write_text(file.read_text())
+    scene = changed((source / "scene.toml").read_text(), (', "critical-speed", "stability"]', "]"), ("count = 16", "count = 2"))
+    faces = [(f"{name}_{side}", f'{{ name = "{name}_{side}", radius = {r}, nodes = 24, z = {z} }}') for side, z in (("upper", 0.01), ("lower", -0.01))
+             for name, r in (("inner", 0.11), ("track", 0.13), ("outer", 0.15))]  # fmt: skip
+    names = ", ".join(f'"{name}"' for name, _ in faces)
+    extruded = f"extrude = {{ from = -0.01, to = 0.01 }}\nrings = [{', '.join(ring for _, ring in faces)}]"
+    disc = re.sub(r"rings = \[.*?\n\]", extruded, (source / "disc.toml").read_text(), flags=re.DOTALL)
+    solid = {"disc.toml": changed(disc, ("element_order = 2", "element_order = 3"), ('type = "shell"', 'type = "solid"'), ("\nthickness = 0.02", ""),
+                                  ('"inner", "track", "outer"', names)),
+             "scene.toml": changed(scene, ('"inner", "track", "outer"', names), ("thickness = 0.02", "contact_planes = [-0.01, 0.01]"))}  # fmt: skip
+    found = []
+    for texts in ({"scene.toml": scene}, solid):
+        for name, text in texts.items():
+            (folder / name).write_text(text)
+        for body in ("disc", "pad", "caliper") if not found else ("disc",):
+            run(programs / "chladni", "run", folder / f"{body}.toml", "--output", folder, "--overwrite")
+        rows = summary(programs / "squeal", "run", folder / "scene.toml", "--output", folder, "--overwrite")["eigenvalues"]
+        found.append([max(row["lambda"]) for row in rows])
+    print(f"examples/brake with a disc of shells, of solids: {found}")
+    for shells, solids in zip(*found):
+        if not (abs(solids[1] / shells[1] - 1) < 1e-3 and abs(solids[0] / shells[0] - 1) < 0.01):  # of the theories
+            yield f"examples/brake with a disc of solids: {solids} instead of {shells}"
 
 
 def few_ring_nodes(programs, folder):
@@ -456,8 +524,7 @@ def few_ring_nodes(programs, folder):
 
 
 def failures(programs, mpirun, folder):
-    yield from annulus(programs, folder, 6e-4, 0.0209, 3, 1)
-    yield from annulus(programs, folder, 6e-4, 0.0209, 3, 1, exact=IN_PLANE)
+    yield from annulus(programs, folder, 6e-4, 0.0209, 3, 1, most_to_10_kHz=8e-4)
     yield from annulus(programs, folder, 3e-3, 0.0209, 2, 2)
     yield from annulus(programs, folder, 7.5e-3, 0.0105, 1, 4)
     yield from annulus(programs, folder, 6e-3, 0.0209, 2, 2, "triangles")
@@ -467,11 +534,13 @@ def failures(programs, mpirun, folder):
     yield from thick_cylinder(programs, folder)
     yield from refusals(programs, folder)
     yield from no_volume(programs, folder)
+    yield from bad_files(programs, folder)
     yield from formats(programs, folder)
     yield from faces(programs, folder)
     yield from calculix(programs, folder)
     yield from example(programs, folder)
     yield from few_ring_nodes(programs, folder)
+    yield from brake(programs, folder)
     yield from rings_on_faces(programs, folder, mpirun)
 
 

@@ -212,5 +212,65 @@ TEST_F(MeshFile, OfStepWithVolumesIsOfSolidsThatMeet)
                {"2 solids", "volume_1"});
 }
 
+TEST_F(MeshFile, OfPyramidsIsRefusedByElement)
+{
+  const std::string file =
+      write("a.msh",
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"body\"\n"
+            "$EndPhysicalNames\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n"
+            "5 0.5 0.5 1\n$EndNodes\n$Elements\n1\n17 7 2 1 1 1 2 3 4 5\n$EndElements\n");
+  expect_words(error_of({.file = file, .solid_groups = {"body"}}),
+               {"a.msh", "element 17", "Pyramid 5", "with tetrahedra"});
+}
+
+/// 30 degrees of a ring with a hole nearer to one of the cuts.
+void add_sector_of_a_ring()
+{
+  namespace occ = gmsh::model::occ;
+  const int outer = occ::addCylinder(0, 0, 0, 0, 0, 20, 160, -1, std::numbers::pi / 6);
+  const int inner = occ::addCylinder(0, 0, 0, 0, 0, 20, 60, -1, std::numbers::pi / 6);
+  const int hole = occ::addCylinder(95, 17, -10, 10, 10, 40, 8);
+  std::vector<std::pair<int, int>> all;
+  std::vector<std::vector<std::pair<int, int>>> parts;
+  occ::cut({{3, outer}}, {{3, inner}, {3, hole}}, all, parts);
+  occ::synchronize();
+}
+
+TEST_F(MeshFile, OfStepWithASectorHasCutsThatMatch)
+{
+  MeshOptions options{.file = save("a.step", add_sector_of_a_ring),
+                      .element_size = 0.03,
+                      .rings = {{.name = "top", .radius = 0.13, .nodes = 48, .z = 0.02}},
+                      .solid_groups = {"volume_1"},
+                      .sectors = 12};
+  const Mesh mesh = generate(options);
+  // Each cut is 100 mm x 20 mm: 8 corners of elements and as many edges at least.
+  EXPECT_GE(mesh.sectors.pairs.size(), 16U);
+  for (const auto& [low, high] : mesh.sectors.pairs) {
+    EXPECT_NEAR(mesh.positions[std::size_t(low)][1], 0.0, 1e-9);
+    EXPECT_NEAR(mesh.positions[std::size_t(high)][1],
+                std::tan(std::numbers::pi / 6) * mesh.positions[std::size_t(high)][0], 1e-9);
+  }
+  EXPECT_EQ(find_group(mesh, "top").nodes.size(), 5U) << "four of 48, and the second end";
+  // The ring cuts a face, and Gmsh gives others new numbers; groups stay those of the file.
+  std::vector<std::array<int, 4>> lies_on;  // z = 0 and 0.02 m, r = 0.06 and 0.16 m
+  for (const Group& group : mesh.groups) {
+    if (group.dimension != 2) continue;
+    lies_on.push_back({1, 1, 1, 1});
+    for (const int node : group.nodes) {
+      const auto& [x, y, z] = mesh.positions[std::size_t(node)];
+      const double r = std::hypot(x, y);
+      const std::array away{z, z - 0.02, r - 0.06, r - 0.16};
+      for (std::size_t k = 0; k < 4; ++k)
+        if (std::abs(away[k]) > 1e-9) lies_on.back()[k] = 0;
+    }
+  }
+  EXPECT_EQ(lies_on.size(), 7U) << "two cuts and a hole besides";
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_EQ(std::ranges::count_if(lies_on, [&](const auto& on) { return on[k]; }), 1) << k;
+  options.sectors = 11;
+  expect_words(error_of(options), {"sectors = 11", "no node"});
+}
+
 }  // namespace
 }  // namespace chladni::mesh
