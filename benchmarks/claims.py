@@ -73,14 +73,21 @@ def calculix(found):
 
 
 def solids(found):
-    def case(run):
-        own, ccx = run["programs"]["chladni modes"], run["programs"]["ccx"]
-        scipy = run["programs"].get("scipy")
-        return (f"{run['modes']} modes of {run['dofs']:,} DOFs: {usage(own)}; ccx {usage(ccx)}, {ccx['cpu_s'] / own['cpu_s']:.1f} times the CPU time" +
-                (f", scipy {scipy['cpu_s'] / own['cpu_s']:.1f} times" if scipy else ""))
+    def times(run, name):
+        other, own = run["programs"].get(name), run["programs"]["chladni modes"]
+        if not other:
+            return []
+        more = "more than " if other.get("stopped") else ""
+        return [f"{name} takes {more}{other['cpu_s'] / own['cpu_s']:.1f} times that CPU time"]
 
-    far = max(p["from_chladni"] for run in found["runs"] for p in run["programs"].values())
-    return [*map(case, found["runs"]), f"frequencies of the three programs differ by at most {far:.0e} on one mesh"]
+    def case(run):
+        return "; ".join([f"{run['modes']} modes of {run['dofs']:,} DOFs: {usage(run['programs']['chladni modes'])}", *times(run, "ccx"), *times(run, "scipy")])
+
+    far = max(p["from_chladni"] for run in found["runs"] for p in run["programs"].values() if not p.get("stopped"))
+    large = found.get("large")
+    return [*map(case, found["runs"]), f"frequencies of the three programs differ by at most {far:.0e} on one mesh",
+            *([f"a ring of {large['dofs']:,} DOFs to its hub and {large['modes']} modes: {large['wall_s'] / 60:.1f} minutes on one core, "
+               f"{large['peak_MiB'] / 1024:.1f} GiB, of which the forecast is {large['forecast_MiB'] / large['peak_MiB']:.2f}"] if large else [])]  # fmt: skip
 
 
 def solid_disc(found):

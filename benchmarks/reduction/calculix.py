@@ -22,19 +22,22 @@ import run
 INNER, OUTER, THICKNESS = 0.025, 0.162, 0.02
 YOUNG, POISSON, DENSITY = 9.15915e10, 0.3, 6300.0
 
-SCENE = f"""
-name = "disc"
-[mesh]
-file = "disc.msh"
-rings = [{{ name = "track", radius = RADIUS, nodes = 60 }}]
+IRON = f"""
 [material.iron]
 young = {YOUNG}
 poisson = {POISSON}
 density = {DENSITY}
 [[section]]
-group = "disc"
-type = "shell"
 material = "iron"
+"""
+IRON_OF_CALCULIX = ["*MATERIAL, NAME=IRON", "*ELASTIC", f"{YOUNG}, {POISSON}", "*DENSITY", f"{DENSITY}"]
+SCENE = f"""
+name = "disc"
+[mesh]
+file = "disc.msh"
+rings = [{{ name = "track", radius = RADIUS, nodes = 60 }}]
+{IRON}group = "disc"
+type = "shell"
 thickness = {THICKNESS}
 """
 CLAMPED = '[[support]]\ngroup = "inner"\ntype = "clamped"\n[modes]\ncount = COUNT\n'
@@ -90,21 +93,28 @@ def inp(nodes, elements, edge, modes):
     lines += [f"{n}, " + ", ".join(map(str, element)) for n, element in enumerate(elements, 1)]
     lines.append("*NSET, NSET=INNER")
     lines += [f"{n}," for n in sorted({n for three in edge for n in three})]
-    lines += ["*MATERIAL, NAME=IRON", "*ELASTIC", f"{YOUNG}, {POISSON}", "*DENSITY", f"{DENSITY}",
-              "*SHELL SECTION, ELSET=DISC, MATERIAL=IRON", f"{THICKNESS}", "*BOUNDARY",
+    lines += [*IRON_OF_CALCULIX, "*SHELL SECTION, ELSET=DISC, MATERIAL=IRON", f"{THICKNESS}", "*BOUNDARY",
               "INNER, 1, 6", "*STEP", "*FREQUENCY", f"{modes}", "*END STEP", ""]
     return "\n".join(lines)
 
 
-def by_calculix(folder, mesh, modes):
-    (folder / "disc.inp").write_text(inp(*mesh, modes))
-    usage = run.timed(["ccx", "disc"], folder)
-    rows = [line.split() for line in (folder / "disc.dat").read_text().splitlines()]
+def by_calculix(folder, text, modes, most_s=None):
+    """Of the file disc.inp with this text; None for the frequencies of a run that took `most_s` of CPU time."""
+    (folder / "disc.inp").write_text(text)
+    usage = run.timed(["ccx", "disc"], folder, most_s)
+    if usage.get("stopped"):
+        return {**usage, "f_Hz": None}
     f_Hz = []
-    for row in rows:  # the table of eigenvalues comes first: number, lambda, omega, f, imaginary part
+    for line in (folder / "disc.dat").read_text().splitlines():
+        row = line.split()  # the table of eigenvalues comes first: number, lambda, omega, f, imaginary part
         if len(row) == 5 and row[0] == str(len(f_Hz) + 1) and len(f_Hz) < modes:
             f_Hz.append(float(row[3]))
     return {**usage, "f_Hz": f_Hz}
+
+
+def version():
+    said = subprocess.run(["ccx", "-v"], capture_output=True, text=True, check=False).stdout.strip()
+    return said.splitlines()[-1] if said else "ccx"
 
 
 def by_chladni(folder, command, scene):
@@ -122,7 +132,7 @@ def measure(folder, arguments, modes, exact):
     (folder / "disc.msh").write_text(msh(*mesh))
     middle = INNER + (OUTER - INNER) * round(0.766 * arguments.across) / arguments.across
     scene = SCENE.replace("RADIUS", f"{middle:.17g}")
-    runs = {"ccx": by_calculix(folder, mesh, modes),
+    runs = {"ccx": by_calculix(folder, inp(*mesh, modes), modes),
             "chladni modes": by_chladni(folder, "modes", scene + CLAMPED.replace("COUNT", str(modes))),
             "chladni reduce": by_chladni(folder, "reduce", scene + REDUCED.replace("COUNT", str(modes)))}
     for program in runs.values():
@@ -170,14 +180,12 @@ def main():
     arguments = parser.parse_args()
     if shutil.which("ccx") is None:
         raise SystemExit("ccx is not installed (Debian: calculix-ccx)")
-    version = subprocess.run(["ccx", "-v"], capture_output=True, text=True, check=False).stdout.strip()
     most = max(arguments.modes)
     exact = {"plate": run.exact_frequencies("annulus", most), "solid": run.exact_frequencies("solid", most),
              "plate_kappa_1": run.exact_frequencies("annulus", most, kappa=1.0)}
     with tempfile.TemporaryDirectory() as name:
         runs = [measure(pathlib.Path(name), arguments, modes, exact) for modes in arguments.modes]
-    result = {"machine": run.machine(), "ccx": version.splitlines()[-1] if version else "ccx",
-              "runs": runs}
+    result = {"machine": run.machine(), "ccx": version(), "runs": runs}
     run.publish(arguments.output, "reduction_calculix", result, table(result))
     print(table(result))
 

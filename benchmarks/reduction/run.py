@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import platform
+import resource
 import subprocess
 import sys
 import tempfile
@@ -53,20 +54,24 @@ def reduce(folder, path, ranks=1, options=(), cache=None, variables=None):
     return {**summary, "events": events, "printed": done.stdout}
 
 
-def timed(command, folder):
-    """Runs a command that must succeed: {wall_s, cpu_s, peak_MiB} of the whole process as the kernel counts them."""
+def timed(command, folder, most_s=None):
+    """Runs a command that must succeed: {wall_s, cpu_s, peak_MiB} of the whole process as the kernel counts them; one that
+    takes `most_s` of CPU time is ended, and has `stopped` then."""
+    limit = most_s and (lambda: resource.setrlimit(resource.RLIMIT_CPU, (most_s, most_s)))
     with tempfile.TemporaryFile("w+") as printed:
         start = time.perf_counter()
         with subprocess.Popen(list(map(str, command)), cwd=folder, env=ENVIRONMENT, stdout=printed,
-                              stderr=subprocess.STDOUT) as process:
+                              stderr=subprocess.STDOUT, preexec_fn=limit) as process:  # fmt: skip
             _, status, usage = os.wait4(process.pid, 0)
             process.returncode = os.waitstatus_to_exitcode(status)
         wall = time.perf_counter() - start
         printed.seek(0)
         text = printed.read()
-    if process.returncode != 0:
+    cpu_s = usage.ru_utime + usage.ru_stime
+    stopped = process.returncode < 0 and most_s is not None and cpu_s > most_s - 1
+    if process.returncode != 0 and not stopped:
         raise SystemExit(f"{' '.join(map(str, command))}\n{text[-2000:]}")
-    return {"wall_s": wall, "cpu_s": usage.ru_utime + usage.ru_stime, "peak_MiB": usage.ru_maxrss / 1024, "printed": text}
+    return {"wall_s": wall, "cpu_s": cpu_s, "peak_MiB": usage.ru_maxrss / 1024, "printed": text, **({"stopped": True} if stopped else {})}
 
 
 def exact_frequencies(theory, count, **more):

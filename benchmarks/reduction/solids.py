@@ -1,44 +1,40 @@
 #!/usr/bin/python3
 """The modes of one clamped disc of solids by CalculiX, by scipy and by Chladni, on the same mesh of 20-node hexahedra.
 
-usage: solids.py [--cases 72x9x3 108x16x4] [--modes 40 200] [--quick] OUTPUT
+usage: solids.py [--cases 72x9x3 108x16x4 156x23x6] [--modes 40 200] [--large 300x45x6] [--most-s 600] [--quick] OUTPUT
 
 A case is the number of elements around, across and over the thickness. CalculiX (Debian: calculix-ccx) takes C3D20 and
 solves by ARPACK with SPOOLES. scipy takes the matrices of Chladni: eigsh with sigma = 0, by a factor of splu with minimum
-degree on A^T + A in symmetric mode. Seconds and memory are those of whole processes with one thread. Errors are against the
-exact solid. Writes OUTPUT/reduction_solids.json and .md.
+degree on A^T + A in symmetric mode. Seconds and memory are those of whole processes with one thread. A run of the other
+programs that takes --most-s of CPU time is ended, and so many modes and more of that mesh are not tried again. Errors are
+against the exact solid. The large case is reduced by Chladni alone, and its memory compared with the forecast of a run that
+may take hardly any. Writes OUTPUT/reduction_solids.json and .md; cases that are not asked for stay there as they were.
 """
 import argparse
 import json
 import math
 import pathlib
+import re
 import subprocess
 import tempfile
 
 import numpy as np
 
+import calculix
 import peers
 import run
-
-INNER, OUTER, THICKNESS = 0.025, 0.162, 0.02
-YOUNG, POISSON, DENSITY = 9.15915e10, 0.3, 6300.0
+from calculix import INNER, OUTER, THICKNESS
 
 SCENE = f"""
 name = "disc"
 [mesh]
 file = "disc.inp"
 length_unit = "m"
-[material.iron]
-young = {YOUNG}
-poisson = {POISSON}
-density = {DENSITY}
-[[section]]
-group = "DISC"
+{calculix.IRON}group = "DISC"
 type = "solid"
-material = "iron"
 """
 CLAMPED = '[[support]]\ngroup = "INNER"\ntype = "clamped"\n[modes]\ncount = COUNT\n'
-EXPORTED = """[[coupling]]
+REDUCED = """[[coupling]]
 type = "rigid"
 name = "hub"
 group = "INNER"
@@ -46,7 +42,7 @@ group = "INNER"
 nodes = ["hub"]
 [reduce]
 method = "craig-bampton"
-modes = 1
+modes = COUNT
 pictures = "none"
 """
 SCIPY = """
@@ -93,28 +89,19 @@ def inp(nodes, elements, inner, modes):
         lines += [", ".join(words[:11]) + ",", ", ".join(words[11:])]
     lines.append("*NSET, NSET=INNER")
     lines += [f"{n}," for n in inner]
-    lines += ["*MATERIAL, NAME=IRON", "*ELASTIC", f"{YOUNG}, {POISSON}", "*DENSITY", f"{DENSITY}",
-              "*SOLID SECTION, ELSET=DISC, MATERIAL=IRON", "", "*BOUNDARY", "INNER, 1, 3", "*STEP", "*FREQUENCY", f"{modes}", "*END STEP", ""]
-    return "\n".join(line for line in lines if line) + "\n"
+    lines += [*calculix.IRON_OF_CALCULIX, "*SOLID SECTION, ELSET=DISC, MATERIAL=IRON", "*BOUNDARY", "INNER, 1, 3",
+              "*STEP", "*FREQUENCY", f"{modes}", "*END STEP"]  # fmt: skip
+    return "\n".join(lines) + "\n"
 
 
-def by_calculix(folder, modes):
-    usage = run.timed(["ccx", "disc"], folder)
-    f_Hz = []
-    for line in (folder / "disc.dat").read_text().splitlines():
-        row = line.split()  # the table of eigenvalues comes first: number, lambda, omega, f, imaginary part
-        if len(row) == 5 and row[0] == str(len(f_Hz) + 1) and len(f_Hz) < modes:
-            f_Hz.append(float(row[3]))
-    return {**usage, "f_Hz": f_Hz}
-
-
-def by_scipy(folder, modes):
-    (folder / "disc.toml").write_text(SCENE + EXPORTED)
+def by_scipy(folder, modes, most_s):
+    (folder / "disc.toml").write_text(SCENE + REDUCED.replace("COUNT", "1"))
     views = [f"-cms_view_{what}" for what in ("stiffness", "mass", "masters")]
     files = [f"binary:{folder}/{file}.petsc" for file in ("K", "M", "masters")]
     run.reduce(folder, folder / "disc.toml", options=[word for pair in zip(views, files) for word in pair])
-    usage = run.timed(["/usr/bin/python3", "-c", SCIPY.format(here=str(run.HERE), folder=str(folder), modes=modes)], folder)
-    return {**usage, "f_Hz": list(np.sqrt(np.load(folder / "lambda.npy")) / (2 * np.pi))}
+    words = ["/usr/bin/python3", "-c", SCIPY.format(here=str(run.HERE), folder=str(folder), modes=modes)]
+    usage = run.timed(words, folder, most_s)
+    return {**usage, "f_Hz": None if usage.get("stopped") else list(np.sqrt(np.load(folder / "lambda.npy")) / (2 * np.pi))}
 
 
 def by_chladni(folder, modes):
@@ -124,18 +111,44 @@ def by_chladni(folder, modes):
     return {**usage, "f_Hz": json.loads((folder / "summary.json").read_text())["frequencies_Hz"]}
 
 
-def measure(folder, case, modes, exact, with_scipy):
-    mesh = polar_mesh(*case)
-    (folder / "disc.inp").write_text(inp(*mesh, modes))
-    runs = {"chladni modes": by_chladni(folder, modes), "ccx": by_calculix(folder, modes)}
-    if with_scipy:
-        runs["scipy"] = by_scipy(folder, modes)
+def measure(folder, case, modes, exact, others):
+    """@param others  programs beside Chladni, as functions of the folder, the mesh and the number of modes"""
+    mesh = polar_mesh(*map(int, case.split("x")))
+    text = inp(*mesh, modes)
+    (folder / "disc.inp").write_text(text)
+    runs = {"chladni modes": by_chladni(folder, modes), **{name: other(folder, text, modes) for name, other in others.items()}}
     own = runs["chladni modes"]["f_Hz"][:modes]
     for program in runs.values():
         del program["printed"]
-        f_Hz = program.pop("f_Hz")[:modes]
+        if (f_Hz := program.pop("f_Hz")) is None:
+            continue
+        f_Hz = f_Hz[:modes]
         program.update(found=len(f_Hz), from_chladni=max(abs(a / b - 1) for a, b in zip(f_Hz, own)), error=run.errors_of(f_Hz, exact))
-    return {"modes": modes, "elements": len(mesh[1]), "dofs": 3 * (len(mesh[0]) - len(mesh[2])), "programs": runs}
+    return {"case": case, "modes": modes, "elements": len(mesh[1]), "dofs": 3 * (len(mesh[0]) - len(mesh[2])), "programs": runs}
+
+
+def reduced(folder, case, modes):
+    """The reduction of the disc at its hub: what it takes, and what a run that has no memory says that it would."""
+    mesh = polar_mesh(*map(int, case.split("x")))
+    (folder / "disc.inp").write_text(inp(*mesh, modes))
+    (folder / "disc.toml").write_text(SCENE + REDUCED.replace("COUNT", str(modes)))
+    words = [str(run.CHLADNI), "reduce", "disc.toml", "--output", "out", "--overwrite", "--json", "summary.json"]
+    refused = subprocess.run([*words, "--", "-cms_memory", "1"], cwd=folder, env=run.ENVIRONMENT, capture_output=True, text=True, check=False)
+    needs = re.search(r"need (?:at least )?(\d+) MiB on one machine besides up to (\d+) MiB", refused.stderr)
+    if not needs:
+        raise SystemExit(f"{case} was not refused for its memory: {refused.stderr[-2000:]}")
+    usage = run.timed(words, folder)
+    del usage["printed"]
+    return {"case": case, "modes": modes, "elements": len(mesh[1]), "dofs": json.loads((folder / "summary.json").read_text())["n_dofs"],
+            "forecast_MiB": int(needs[1]) + int(needs[2]), **usage}
+
+
+def cells(program, base):
+    """Of a row."""
+    if program.get("stopped"):
+        return f"> {program['wall_s']:.0f} | > {program['cpu_s']:.0f} | > {program['cpu_s'] / base:.1f} | > {program['peak_MiB']:.0f} | stopped | | |"
+    return (f"{program['wall_s']:.1f} | {program['cpu_s']:.1f} | {program['cpu_s'] / base:.1f} | {program['peak_MiB']:.0f} | {program['found']} | "
+            f"{program['from_chladni']:.0e} | {program['error']['median']:.1e}, {program['error']['largest']:.1e} |")  # fmt: skip
 
 
 def table(result):
@@ -144,36 +157,59 @@ def table(result):
              "thread. scipy gets the matrices of Chladni, and its seconds are without their assembly. Written by `benchmarks/reduction/solids.py`.", "",
              f"{result['machine']['processor']}, commit {result['machine']['commit']}, {result['ccx']}.", "",
              "Errors are those of the frequencies by their place in the order, relative, against the exact solid: they are those of the mesh. The "
-             "frequencies of ccx have seven digits.", "",
+             "frequencies of ccx have seven digits. A `>` stands before what a run had taken when it was stopped; more modes of that mesh were "
+             "not tried with this program.", "",
              "| DOFs | modes | program | wall, s | CPU, s | CPU over that of chladni | peak, MiB | frequencies found | farthest from those of "
              "chladni | error (median, largest) |", "|---" * 10 + "|"]  # fmt: skip
     for r in result["runs"]:
         base = r["programs"]["chladni modes"]["cpu_s"]
-        for name, p in r["programs"].items():
-            lines.append(f"| {r['dofs']:,} | {r['modes']} | {name} | {p['wall_s']:.1f} | {p['cpu_s']:.1f} | {p['cpu_s'] / base:.1f} | "
-                         f"{p['peak_MiB']:.0f} | {p['found']} | {p['from_chladni']:.0e} | {p['error']['median']:.1e}, "
-                         f"{p['error']['largest']:.1e} |")  # fmt: skip
+        lines += [f"| {r['dofs']:,} | {r['modes']} | {name} | {cells(p, base)}" for name, p in r["programs"].items()]
+    if "large" in result:
+        r = result["large"]
+        lines += ["", f"A ring of {r['dofs']:,} DOFs ({r['elements']:,} elements, {r['case']}) to six masters at its hub and {r['modes']} modes, on one core:", "",
+                  "| wall, s | CPU, s | peak, MiB | forecast, MiB | forecast over peak |", "|---" * 5 + "|",
+                  f"| {r['wall_s']:.0f} | {r['cpu_s']:.0f} | {r['peak_MiB']:.0f} | {r['forecast_MiB']} | {r['forecast_MiB'] / r['peak_MiB']:.3f} |"]  # fmt: skip
     return "\n".join(lines) + "\n"
+
+
+def other_programs(most_s):
+    """Those beside Chladni; one that was stopped is not tried again."""
+    own = {"ccx": lambda folder, text, modes: calculix.by_calculix(folder, text, modes, most_s),
+           "scipy": lambda folder, text, modes: by_scipy(folder, modes, most_s)}  # fmt: skip
+
+    def tried(name, *of):
+        found = own[name](*of)
+        if found.get("stopped"):
+            del others[name]
+        return found
+
+    others = {name: lambda *of, name=name: tried(name, *of) for name in own}
+    return others
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--cases", nargs="+", default=["72x9x3", "108x16x4"])
+    parser.add_argument("--cases", nargs="*", default=["72x9x3", "108x16x4", "156x23x6"])
     parser.add_argument("--modes", type=int, nargs="+", default=[40, 200])
+    parser.add_argument("--large", default="300x45x6", help="none: without")
+    parser.add_argument("--most-s", type=int, default=600)
     parser.add_argument("--quick", action="store_true")
-    parser.add_argument("--without-scipy", action="store_true")
     parser.add_argument("output", type=pathlib.Path)
     arguments = parser.parse_args()
-    cases, modes = (["24x4x1"], [10]) if arguments.quick else (arguments.cases, arguments.modes)
-    version = subprocess.run(["ccx", "-v"], capture_output=True, text=True, check=False).stdout.strip()
+    cases, modes, large = (["24x4x1"], [10], "24x4x1") if arguments.quick else (arguments.cases, sorted(arguments.modes), arguments.large)
     exact = run.exact_frequencies("solid", max(modes))
-    runs = []
+    file = arguments.output / "reduction_solids.json"
+    result = {"runs": [], **(json.loads(file.read_text()) if file.exists() and not arguments.quick else {}), "machine": run.machine(), "ccx": calculix.version()}
     for case in cases:
+        others = other_programs(arguments.most_s)
+        result["runs"] = [r for r in result["runs"] if r["case"] != case]
         for count in modes:
             with tempfile.TemporaryDirectory() as name:
-                size = [int(n) for n in case.split("x")]
-                runs.append(measure(pathlib.Path(name), size, count, exact, not arguments.without_scipy))
-    result = {"machine": run.machine(), "ccx": version.splitlines()[-1] if version else "ccx", "runs": runs}
+                result["runs"].append(measure(pathlib.Path(name), case, count, exact, dict(others)))
+    result["runs"].sort(key=lambda r: (r["dofs"], r["modes"]))
+    if large != "none":
+        with tempfile.TemporaryDirectory() as name:
+            result["large"] = reduced(pathlib.Path(name), large, min(modes))
     run.publish(arguments.output, "reduction_solids", result, table(result))
     print(table(result))
 
