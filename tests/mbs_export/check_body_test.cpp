@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "bending_beam.hpp"
 #include "mbs_export/make_body.hpp"
@@ -65,6 +67,16 @@ TEST(CheckReduced, CountsRigidModesAndMasslessDirections)
   const std::vector<Check> checks = check_reduced(wheel);
   EXPECT_EQ(value_of(checks, "massless directions"), 2);
   EXPECT_EQ(worst(checks), Verdict::pass) << names(checks, Verdict::fail);
+}
+
+TEST(CheckReduced, WarnsOfAnAsymmetryOfTenDigitsAndFailsOfEight)
+{
+  for (const auto& [size, verdict] :
+       {std::pair{0.5e-10, Verdict::pass}, {0.5e-8, Verdict::warn}, {2e-8, Verdict::fail}}) {
+    expect(test::wheel(), check_reduced, "symmetry of K", verdict, [of = size](ReducedSystem& s) {
+      s.K(0, 8) = s.K(8, 0) + of * std::sqrt(s.K(0, 0) * s.K(8, 8));
+    });
+  }
 }
 
 TEST(CheckReduced, FailsEachPropertyThatIsSpoiled)
@@ -196,6 +208,14 @@ TEST(CheckBody, FindsNothingWrongWithSoundBodies)
     EXPECT_EQ(worst(checks), Verdict::pass)
         << names(checks, Verdict::warn) << names(checks, Verdict::fail);
   }
+}
+
+TEST(CheckBody, TellsByHowMuchAFrequencyIsTooLow)
+{
+  ModalBody wheel = held_wheel();
+  wheel.free_frequencies = 0.5 * wheel.omega;
+  wheel.free_frequencies[4] = 1.25 * wheel.omega[4];
+  EXPECT_NEAR(value_of(check_body(wheel), "frequencies"), 0.2, 1e-12);
 }
 
 TEST(CheckBody, FailsEachPropertyThatIsSpoiled)

@@ -102,6 +102,28 @@ TEST(Scene, HoldsTheMeshAndItsSections)
   EXPECT_EQ(scene.couplings[0].group, "inner_edge");
 }
 
+TEST(Scene, HoldsTheHarmonicsOfRingsThatAreNodesOfTheInterface)
+{
+  const std::string nodes = "nodes = [\"track\", \"hub\"]\n";
+  const auto with_rings = [&](const std::string& rings) {
+    return replaced(disc_scene, nodes, nodes + "rings = " + rings + "\n");
+  };
+  const Scene scene =
+      parse_scene(with_rings("[{ name = \"track\", harmonics = 5 }]"), "scene.toml");
+  ASSERT_EQ(scene.ring_harmonics.size(), 1U);
+  EXPECT_EQ(scene.ring_harmonics[0].ring, "track");
+  EXPECT_EQ(scene.ring_harmonics[0].up_to, 5);
+  const auto refused = [&](const std::string& rings, const std::string& why) {
+    const std::string error = error_of(with_rings(rings));
+    EXPECT_NE(error.find(why), std::string::npos) << error;
+  };
+  refused("[{ name = \"rim\", harmonics = 5 }]",
+          "interface.rings.name = \"rim\": no such interface node");
+  refused("[{ name = \"track\", harmonics = 31 }]", "a ring of 60 nodes has the harmonics 1 to 30");
+  refused("[{ name = \"track\", harmonics = 5 }, { name = \"track\", harmonics = 4 }]",
+          "is given twice");
+}
+
 TEST(Scene, HoldsTheReductionAndTheBody)
 {
   const Scene scene = parse_scene(disc_scene, "scene.toml");
