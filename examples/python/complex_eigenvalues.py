@@ -15,6 +15,8 @@ from petsc4py import PETSc
 
 import chladni
 
+DOFS = 64  # more than a node has, whose temperatures and amplitudes Abaqus numbers up to 30
+
 
 def read_matrices(files) -> list:
     """Matrices of one system, as of scipy: coordinate files of Matrix Market, lines `row column value`, or lines
@@ -28,15 +30,15 @@ def read_matrices(files) -> list:
     for file in files:
         entries, is_symmetric, n_rows = entries_of(Path(file))
         if entries.shape[1] == 5:
-            rows, columns = (8 * entries[:, k].astype(np.int64) + entries[:, k + 1].astype(np.int64) for k in (0, 2))
+            rows, columns = (DOFS * entries[:, k].astype(np.int64) + entries[:, k + 1].astype(np.int64) for k in (0, 2))
             labels = np.unique(np.concatenate([rows, columns])) if labels is None else labels
             unknown = np.setdiff1d(np.concatenate([rows, columns]), labels)
             if len(unknown):
-                raise chladni.Error(f"{file}: node {unknown[0] // 8}, DOF {unknown[0] % 8} is not in {files[0]}")
+                raise chladni.Error(f"{file}: node {unknown[0] // DOFS}, DOF {unknown[0] % DOFS} is not in {files[0]}")
             rows, columns, n_rows = np.searchsorted(labels, rows), np.searchsorted(labels, columns), len(labels)
         else:
             rows, columns = entries[:, 0].astype(np.int64) - 1, entries[:, 1].astype(np.int64) - 1
-        n = max(n, n_rows, int(max(rows.max(), columns.max())) + 1)
+        n = max(n, n_rows, int(max(rows.max(initial=-1), columns.max(initial=-1))) + 1)
         is_symmetric = is_symmetric if is_symmetric is not None else bool((rows <= columns).all() or (rows >= columns).all())
         code = np.sort(rows * n + columns)
         if np.any(code[1:] == code[:-1]):
@@ -66,22 +68,24 @@ def entries_of(file):
     kept = [(i, line.replace(",", " ").lower().replace("d", "e").split()) for i, line in enumerate(lines)
             if line.strip() and line.lstrip()[0] not in "%*#" and i != size_line]  # fmt: skip
     width = 3 if size_line is not None or not kept else len(kept[0][1])
-    if not kept or width not in (3, 5):
+    if (not kept and size_line is None) or width not in (3, 5):
         raise chladni.Error(f"{file}: has no lines `row column value` or `node, DOF, node, DOF, value`")
     table = np.empty((len(kept), width))
     for at, (i, fields) in enumerate(kept):
         try:
-            table[at] = fields
-            if any(value != int(value) or value < 1 for value in table[at, :-1]):
+            if len(fields) != width:  # a row of numpy takes one number for all
                 raise ValueError
-        except ValueError:
+            table[at] = fields
+            if any(value != int(value) or value < 1 for value in table[at, :-1]) or (width == 5 and table[at, 1:4:2].max() >= DOFS):
+                raise ValueError
+        except (ValueError, OverflowError):
             raise chladni.Error(f"{file}, line {i + 1}: '{lines[i].strip()[:60]}' is not {width - 1} numbers from 1 and a value") from None
     if size_line is not None:
         sizes = lines[size_line].split()
         if len(sizes) != 3 or sizes[0] != sizes[1] or sizes[2] != str(len(kept)):
             raise chladni.Error(f"{file}, line {size_line + 1}: says '{lines[size_line].strip()[:40]}', and {len(kept)} entries follow; the matrix must be square and complete")
         n = int(sizes[0])
-        if table[:, :2].max() > n:
+        if table[:, :2].max(initial=0) > n:
             raise chladni.Error(f"{file}: row or column {int(table[:, :2].max())} of a matrix of {n} rows")
     return table, is_symmetric, n
 

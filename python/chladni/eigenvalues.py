@@ -18,6 +18,7 @@ V. Mehrmann and C. Schroeder, J. of Mathematics in Industry 6 (2016) 7, project 
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -27,7 +28,7 @@ import scipy.linalg
 from petsc4py import PETSc
 
 from chladni._squeal import Error
-from chladni.reduction import _petsc
+from chladni.reduction import _one_thread_at_a_time, _petsc
 
 BEYOND = 1.5  # of the frequency asked for: up to here the modes of (K, M) are in the basis
 BLOCK = 8
@@ -41,7 +42,7 @@ class ComplexEigenvalues:
 
     Attributes:
         values: lambda in 1/s
-        errors: estimates of their absolute errors in 1/s
+        errors: estimates of their absolute errors in 1/s, of the basis and of the rounding of M, D and K
         residuals: |P^-1 Q(lambda) x| / |x| in the norm of M
         right, left: [n x k] vectors x and y of this rank's rows, x^H M x = y^H M y = 1
         basis: [n x m] of this rank's rows, for `start`
@@ -72,22 +73,33 @@ class _System:
         self.M, self.D, self.K = M, D, K
         self.comm = K.getComm()
         self.n_solves, self.mu = 0, (0.2 * omega) ** 2
-        P = K.copy()
-        P.axpy(self.mu, M)
-        ksp = PETSc.KSP().create(self.comm)
-        ksp.setOperators(P)
-        ksp.setType("preonly")
-        pc = ksp.getPC()
+        self.P = K.copy()
+        self.P.axpy(self.mu, M)
+        self.ksp = PETSc.KSP().create(self.comm)
+        self.ksp.setOperators(self.P)
+        self.ksp.setType("preonly")
+        pc = self.ksp.getPC()
         pc.setType("lu")
         pc.setFactorSolverType("mumps")
         pc.setFactorSetUpSolverType()
+        self.factor = pc.getFactorMatrix()
+        self.factor.setMumpsIcntl(14, 60)  # %, of room for pivots that are put off
         try:
-            ksp.setUp()
-        except PETSc.Error:
-            raise Error(f"K + mu M with mu = {self.mu:.3g} 1/s^2 has no LU factor: it is singular, or memory is short") from None
-        self.ksp, self.factor = ksp, pc.getFactorMatrix()
-        if self.factor.getMumpsInfog(1) < 0:
-            raise Error(f"K + mu M has no LU factor (MUMPS says {self.factor.getMumpsInfog(1)}): a motion has neither stiffness nor mass")
+            self.ksp.setUp()
+        except PETSc.Error as reason:
+            self.destroy()
+            raise Error(f"K + mu M with mu = {self.mu:.3g} 1/s^2 has no LU factor: {str(reason).splitlines()[-1].strip()}") from None
+        code = self.factor.getMumpsInfog(1)
+        if code < 0:
+            self.destroy()
+            is_singular = code in (-6, -10)
+            raise Error(f"K + mu M has no LU factor (MUMPS says {code}): " + (
+                "a motion has neither stiffness nor mass" if is_singular else "it needs more memory; take more ranks or a smaller model"))
+
+    def destroy(self):
+        """At once, on all ranks: what Python lets go later keeps its memory."""
+        self.ksp.destroy()
+        self.P.destroy()
 
     def sum(self, local):
         return local if self.comm.getSize() == 1 else self.comm.tompi4py().allreduce(local)
@@ -145,6 +157,8 @@ class _Basis:
         X = self.orthogonal(X)
         for limit in (max(least, 1e-7), 0.1, 0.1):  # what cancelled is round-off, and its unit vectors shrink again
             sigma2, U = np.linalg.eigh(self.gram(X, self.system.product(self.system.M, X)))
+            if sigma2.min(initial=0.0) < -1e-10 * abs(sigma2).max(initial=0.0) and limit >= 1e-7 and self.V.shape[1] == 0:
+                raise Error("M is not positive definite: a motion has a negative kinetic energy")
             scale = sigma2.max(initial=1e-300) if limit < 0.1 else 1.0
             kept = np.flatnonzero(sigma2 > limit**2 * scale)[::-1][:most]
             X = self.orthogonal(X @ (U[:, kept] / np.sqrt(sigma2[kept])))
@@ -170,12 +184,12 @@ def _modes(system, omega, transposed):
     krylov, n = _Basis(system, of_krylov=True), system.K.getSize()[0]
     block = krylov.add(_random(system, min(BLOCK, n), 1 + transposed))
     H = np.zeros((block.shape[1], 0))
-    while True:
+    for step in itertools.count(1):
         W = system.solve(system.product(system.M, block), transposed)
         block = krylov.add(W)
         H = np.hstack([np.vstack([H, np.zeros((block.shape[1], H.shape[1]))]), krylov.gram(krylov.MV, W)])
         m, is_all = H.shape[1], block.shape[1] == 0
-        if not is_all and m % (4 * BLOCK):
+        if not is_all and step % 4:
             continue
         nu, Y = np.linalg.eig(H[:m])
         distance = abs(1.0 / nu - system.mu)
@@ -209,7 +223,7 @@ def _corrections(basis, values, x, y, r, s):
     system, k = basis.system, len(values)
     t = system.solve(np.hstack([r.real, r.imag]))
     u = system.solve(np.hstack([s.real, s.imag]), transposed=True)
-    norms = np.sqrt(abs(system.sum(np.einsum("ij,ij->j", t, system.product(system.M, t)))).reshape(2, k).sum(0))
+    norms = np.sqrt(abs(system.sum(np.einsum("ij,ij->j", t, system.product(system.M, t)))).reshape(2, k).sum(0))  # of both parts
     slope = np.einsum("ij,ij->j", y.conj(), basis.D_r @ x + 2.0 * values * x)
     errors = abs(system.sum(np.einsum("ij,ij->j", s.conj(), t[:, :k] + 1j * t[:, k:])))
     return np.hstack([t, u]), norms, errors / np.maximum(abs(slope), 1e-300)
@@ -272,6 +286,22 @@ def _check_space(basis, seed):
     return np.hstack(found)
 
 
+def _rounding(basis, values, x, y):
+    """What rounding of the entries of the matrices may do to the values: the diagonals tell of what size terms cancel.
+
+    A perturbation of size delta of a simple value is one of delta / |y^H Q' x|, and one of sqrt(delta) where two meet.
+    """
+    system = basis.system
+    moved = abs(basis.V @ x) * abs(basis.V @ y)
+    delta = sum(
+        abs(values) ** power * system.sum(abs(A.getDiagonal().getArray()) @ moved)
+        for A, power in ((system.K, 0), (system.D, 1), (system.M, 2)) if A is not None)  # fmt: skip
+    delta = 8.0 * np.finfo(float).eps * delta
+    slope = abs(np.einsum("ij,ij->j", y.conj(), basis.D_r @ x + 2.0 * values * x))
+    return delta / np.maximum(np.maximum(slope, np.sqrt(delta)), 1e-300)
+
+
+@_one_thread_at_a_time
 def complex_eigenvalues(M, D, K, *, up_to_Hz: float, tolerance: float = 1e-8, damped_up_to: float = 0.1,
                         start: ComplexEigenvalues | None = None, monitor: Callable[..., object] | None = None) -> ComplexEigenvalues:  # fmt: skip
     """The eigenvalues of lambda^2 M + lambda D + K with |Im lambda| <= 2 pi up_to_Hz whose damping ratio is below a limit.
@@ -293,12 +323,28 @@ def complex_eigenvalues(M, D, K, *, up_to_Hz: float, tolerance: float = 1e-8, da
     >>> [f"{value:.4f}" for value in found.unstable]
     ['0.2481+2.0153j']
     """
-    if not up_to_Hz > 0.0:
-        raise Error(f"up_to_Hz is {up_to_Hz}: give a positive frequency")
+    for name, value in (("up_to_Hz", up_to_Hz), ("tolerance", tolerance)):
+        if not (value > 0.0 and np.isfinite(value)):
+            raise Error(f"{name} is {value}: give a positive number")
+    if M is None or K is None:
+        raise Error(f"{'M' if M is None else 'K'} is None: give a matrix; D alone may be left out")
     given = [(None, False) if A is None else _petsc(A) for A in (M, D, K)]
-    _check(*(A for A, _ in given))
-    omega = 2.0 * np.pi * up_to_Hz
-    system = _System(*(A for A, _ in given), omega)
+    system = None
+    try:
+        _check(*(A for A, _ in given))
+        _check_start(start, given[2][0])
+        omega = 2.0 * np.pi * up_to_Hz
+        system = _System(*(A for A, _ in given), omega)
+        return _found(system, omega, tolerance, damped_up_to, start, monitor)
+    finally:
+        if system is not None:
+            system.destroy()
+        for A, is_copy in given:
+            if is_copy:
+                A.destroy()
+
+
+def _found(system, omega, tolerance, damped_up_to, start, monitor):
     basis = _Basis(system)
     basis.add(np.hstack([_modes(system, omega, transposed) for transposed in (False, True)]) if start is None else start.basis, 1e-6)
     search = _Search(basis, omega, tolerance, damped_up_to, monitor)
@@ -311,12 +357,21 @@ def complex_eigenvalues(M, D, K, *, up_to_Hz: float, tolerance: float = 1e-8, da
         found_by_check += max(len(search.values) - n_before, 0)
         if len(search.values) <= n_before:
             break
-    for A, is_copy in given:
-        if is_copy:
-            A.destroy()
+    else:
+        raise Error(f"each of ten searches has found pairs that were missed, {found_by_check} in all; take a lower frequency")
     return ComplexEigenvalues(
-        values=search.values, errors=search.errors, residuals=search.norms, right=basis.V @ search.x, left=basis.V @ search.y,
+        values=search.values, errors=search.errors + _rounding(basis, search.values, search.x, search.y),
+        residuals=search.norms, right=basis.V @ search.x, left=basis.V @ search.y,
         basis=basis.V, rounds=search.rounds, solves=system.n_solves, found_by_check=found_by_check)  # fmt: skip
+
+
+def _check_start(start, K):
+    """The rows of another system, or of another layout on some rank, are no start."""
+    if start is None:
+        return
+    fits, comm = start.basis.shape[0] == K.getLocalSize()[0], K.getComm()
+    if not (fits if comm.getSize() == 1 else all(comm.tompi4py().allgather(fits))):
+        raise Error(f"start is of other matrices: its basis has {start.basis.shape[0]} rows on this rank, and K has {K.getLocalSize()[0]}")
 
 
 def _check(M, D, K):
@@ -340,6 +395,7 @@ def _check(M, D, K):
     starts, _, values = transposed.getValuesCSR()
     skew = np.flatnonzero(abs(values) > 1e-10 * M.norm(PETSc.NormType.INFINITY))
     row = first + int(np.searchsorted(starts, skew[0], "right")) if len(skew) else n + 1
+    transposed.destroy()
     _agree(M, row, n, "M, row {}: the matrix is not symmetric; only D and K may be unsymmetric")
 
 

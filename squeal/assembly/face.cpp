@@ -182,6 +182,12 @@ DiscFaces disc_faces(const AssemblyOptions& options, const InertialDisc& disc)
           ring->name, ring->height, low->height, high->height));
     }
   }
+  if (!options.planes && !at_one_height(*low, *high)) {
+    throw Error(fmt::format(
+        "squeal.rings: \"{}\" and \"{}\" lie at z = {:.6g} and {:.6g} m, so that a thickness about "
+        "their middle says nothing of the faces; give contact_planes in place of thickness",
+        low->name, high->name, low->height, high->height));
+  }
   const double middle = 0.5 * (low->height + high->height), half = 0.5 * options.thickness;
   faces.planes = options.planes.value_or(std::array{middle - half, middle + half});
   return faces;

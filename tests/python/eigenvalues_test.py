@@ -94,6 +94,19 @@ class Eigenvalues(unittest.TestCase):
         K = (K - sp.diags(np.asarray(K.sum(1)).ravel())).tocsr()  # rows sum to zero: a translation is free
         found = chladni.complex_eigenvalues(given(M), None, given(K), up_to_Hz=8.0)
         self.assertLess(np.min(abs(found.values)), 1e-4)
+        self.assertEqual(len(found.unstable), len(found.values[found.values.real > 1e-2]))  # rounding at zero is no growth
+
+    def test_of_an_undamped_symmetric_system_none_is_unstable(self):
+        n, k = 120, 1e9
+        held = sp.diags([2 * k * np.ones(n), -k * np.ones(n - 1), -k * np.ones(n - 1)], [0, 1, -1]).tocsr()
+        free = held.tolil()
+        free[0, 0] = free[-1, -1] = k
+        for K in (held, sp.block_diag([free.tocsr()] * 3).tocsr()):
+            M = sp.identity(K.shape[0], format="csr")
+            found = chladni.complex_eigenvalues(given(M), None, given(K), up_to_Hz=5000.0)
+            self.assertGreater(len(found.values), 30)
+            self.assertEqual(len(found.unstable), 0)
+            self.assertLess(max(found.errors[abs(found.values) > 100.0]), 1e-6)
 
     def test_systems_that_are_none_are_refused_by_matrix_and_row(self):
         M, D, K = chain(30, 1)
@@ -107,8 +120,18 @@ class Eigenvalues(unittest.TestCase):
                                ("K, row 1: an entry is not", (M, D, broken)), ("D is 3 x 3", (M, sp.identity(3, format="csr"), K))):  # fmt: skip
             with self.subTest(said), self.assertRaisesRegex(chladni.Error, said):
                 chladni.complex_eigenvalues(*map(given, matrices), up_to_Hz=8.0)
-        with self.assertRaisesRegex(chladni.Error, "positive frequency"):
-            chladni.complex_eigenvalues(given(M), None, given(K), up_to_Hz=0.0)
+        for up_to_Hz in (0.0, np.inf):
+            with self.assertRaisesRegex(chladni.Error, "up_to_Hz is .* positive number"):
+                chladni.complex_eigenvalues(given(M), None, given(K), up_to_Hz=up_to_Hz)
+        with self.assertRaisesRegex(chladni.Error, "K is None"):
+            chladni.complex_eigenvalues(given(M), None, None, up_to_Hz=8.0)
+        indefinite = sp.block_diag([np.array([[1.0, 2.0], [2.0, 1.0]])] * 15).tocsr()
+        with self.assertRaisesRegex(chladni.Error, "M is not positive definite"):
+            chladni.complex_eigenvalues(given(indefinite), None, given(K), up_to_Hz=8.0)
+        start = chladni.complex_eigenvalues(given(M), None, given(K), up_to_Hz=8.0)
+        start.basis = start.basis[:-1]
+        with self.assertRaisesRegex(chladni.Error, "start is of other matrices"):
+            chladni.complex_eigenvalues(given(M), None, given(K), up_to_Hz=8.0, start=start)
 
 
 @unittest.skipIf(RANKS > 1, "files of one rank")
@@ -146,7 +169,9 @@ class Files(unittest.TestCase):
         expected = exact(M, D, K, 8.0)
         for table in tables:
             self.assertEqual(len(table), len(expected))
-            np.testing.assert_allclose(table[:, 0], np.sort(expected.imag) / (2 * np.pi), rtol=1e-7)
+            expected = expected[np.lexsort((expected.real, expected.imag))]
+            np.testing.assert_allclose(table[:, 0], expected.imag / (2 * np.pi), rtol=1e-7)
+            np.testing.assert_allclose(table[:, 1], expected.real, atol=1e-6)
 
     def test_that_are_wrong_are_told_by_line(self):
         M, _, K = chain(20, 4)
@@ -155,6 +180,8 @@ class Files(unittest.TestCase):
         market = self.write("K_market.mtx", K, "market").read_text()
         for said, content in (("line 3: '1 x 3.0' is not", "** a\n1 1 2.0\n1 x 3.0\n"), ("row 1, column 1 is there twice", text + "1 1 5.0\n"),
                               ("is not 2 numbers from 1", "0 1 2.0\n"), ("has no lines", "nothing\n"), ("has no lines", ""),
+                              ("line 3: '3' is not", "1 1 2.0\n1 2 -1.0\n3"), ("line 1: '1e999 2 -1.0'", "1e999 2 -1.0\n"),
+                              ("line 2: '1, 64, 1, 1, 2.0'", "1, 1, 1, 1, 2.0\n1, 64, 1, 1, 2.0\n"),
                               ("line 1: give a real coordinate", market.replace("real", "complex")),
                               ("entries follow", market[: market.rindex("\n", 0, -1) + 1])):  # fmt: skip
             with self.subTest(said):

@@ -156,6 +156,10 @@ TEST(Assembly, RefusesNodesOfTwoLiningsAndRingsOnOneCircle)
                 .find("squeal.rings: \"track\" and \"again\" lie on one circle of radius 0.13 m"),
             std::string::npos)
       << error_of(options, bodies);
+  bodies[0].rings.back().height += 0.01;
+  EXPECT_NE(error_of(options, bodies).find("give contact_planes in place of thickness"),
+            std::string::npos)
+      << error_of(options, bodies);
   options.rings = {"inner"};
   EXPECT_NE(error_of(options).find("squeal.disc: part \"disc\" (disc.body.h5): no contact ring"),
             std::string::npos)
