@@ -246,7 +246,8 @@ TEST_F(MeasuredFunctionsFile, RefusesByItsLineWhatBreaksTheFormat)
   expect("         6         3         1", "         6         3         2", "spacing 2");
   expect("  2.50000E+00", " -2.50000E+00", "positive step");
   expect("   7  -3", "   7  -9", ":19: dataset 58: record 6: direction -9");
-  expect("   7  -3", "   7 -3x", ":19: dataset 58: record 6");
+  expect("   7  -3", "   7 -3x",
+         ":19: dataset 58: record 6: columns 52 to 55 are '-3x', no whole number");
   for (const std::string type : {"        -1", "     10001", "       1.2"})
     expect("        13    0    1    0 Force", type + "    0    1    0 Force", "no data type");
   expect("    58\n", "    58b\n", ":13: ");

@@ -48,6 +48,8 @@ TEST(SceneOfResponses, ReadsPlacesAndFrequencies)
   EXPECT_EQ(scene.response->range.count, 3);
   EXPECT_EQ(scene.response->range.spacing, mbs_export::Spacing::linear);
   EXPECT_EQ(scene.response->loss_factor, 0.0);
+  const std::string damped = std::string(of_fe_model) + "loss_factor = 0.02\n";
+  EXPECT_EQ(parse_scene(damped, "scene.toml").response->loss_factor, 0.02);
 }
 
 TEST(SceneOfResponses, NeedsAReductionForABody)

@@ -254,6 +254,26 @@ TEST(Scene, TakesTheSpeedOfALimitCycleFromTheTransientUnlessGiven)
   EXPECT_EQ(scene.squeal->study.limit_cycle_direct->speed, 20.0);
 }
 
+TEST(Scene, HoldsWhatATableOfModesRunsOver)
+{
+  const auto stability = [](const std::string& words) {
+    return *parse_scene(disc_scene + "stability = { " + words + " }\n", "scene.toml")
+                .squeal->study.stability;
+  };
+  for (const std::string over : {"", ", over = \"speed\""}) {
+    const squeal::StabilityCase of_speed = stability("band_Hz = [500, 1500]" + over);
+    EXPECT_FALSE(of_speed.over);
+    EXPECT_EQ(of_speed.from, 3.0);
+    EXPECT_EQ(of_speed.to, 63.0);
+    EXPECT_EQ(of_speed.band->to_Hz, 1500.0);
+  }
+  const squeal::StabilityCase of_stiffness =
+      stability("over = \"stiffness\", from = 1e6, to = 9e6, count = 5, speed_rad_s = 20");
+  EXPECT_EQ(of_stiffness.over, squeal::MapParameter::stiffness);
+  EXPECT_EQ(of_stiffness.from, 1e6);
+  EXPECT_EQ(of_stiffness.speed, 20.0);
+}
+
 TEST(Scene, HoldsTheSecondParameterOfAStabilityMap)
 {
   EXPECT_FALSE(parse_scene(disc_scene, "scene.toml").squeal->study.map);

@@ -159,5 +159,29 @@ TEST(UnfinishedFile, IsRemovedByASignalThatEndsTheProcess)
   EXPECT_EQ(bytes_of(folder.file("a")), "old");
 }
 
+/// What a signal does now.
+struct sigaction action_of(int number)
+{
+  struct sigaction action {};
+  sigaction(number, nullptr, &action);
+  return action;
+}
+
+TEST(UnfinishedFiles, AreRemovedOnSignalsButThoseThatNohupIgnores)
+{
+  const struct sigaction hangup = action_of(SIGHUP), interrupt = action_of(SIGINT),
+                         end = action_of(SIGTERM), size = action_of(SIGXFSZ);
+  std::signal(SIGHUP, SIG_IGN);
+  remove_unfinished_files_on_signals();
+  EXPECT_EQ(action_of(SIGHUP).sa_handler, SIG_IGN);
+  EXPECT_NE(action_of(SIGTERM).sa_handler, end.sa_handler);
+  EXPECT_NE(action_of(SIGINT).sa_handler, interrupt.sa_handler);
+  EXPECT_EQ(action_of(SIGXFSZ).sa_handler, SIG_IGN);
+  sigaction(SIGHUP, &hangup, nullptr);
+  sigaction(SIGINT, &interrupt, nullptr);
+  sigaction(SIGTERM, &end, nullptr);
+  sigaction(SIGXFSZ, &size, nullptr);
+}
+
 }  // namespace
 }  // namespace chladni::files
