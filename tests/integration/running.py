@@ -37,3 +37,10 @@ def changed(text, *changes):
         assert text.count(old) == 1, f"{old!r} must stand once in the scene"
         text = text.replace(old, new)
     return text
+
+
+def told(problems):
+    """Prints them; the exit code of the test."""
+    for problem in problems:
+        print("FAILED:", problem)
+    return 1 if problems else 0

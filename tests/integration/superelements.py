@@ -10,7 +10,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from running import changed, run, start, summary
+from running import changed, run, start, summary, told
 
 SCENE = """name = "pad"
 
@@ -263,9 +263,7 @@ def main():
             *others_writers(programs, folder, expected),
             *bad_superelements(programs, folder, expected),
         ]
-    for problem in problems:
-        print("FAILED:", problem)
-    return 1 if problems else 0
+    return told(problems)
 
 
 if __name__ == "__main__":
