@@ -166,7 +166,6 @@ void check_elements(const scene::Scene& scene, const mesh::Mesh& mesh)
 mesh::Mesh mesh_scene(const scene::Scene& scene)
 {
   mesh::Mesh mesh = mesh::generate(scene.mesh);
-  check_elements(scene, mesh);
   if (!scene.accuracy || has_size(scene.mesh)) return mesh;
   take_edges_of_nodes(mesh, scene.mesh);
   const auto halvings = static_cast<int>(std::lround(-std::log2(scene.mesh.size_factor)));
@@ -187,6 +186,7 @@ mesh::Mesh mesh_on_all_ranks(const scene::Scene& scene, const ChooseMesh& choose
     mesh = mesh_scene(scene);
     for (const std::string& note : mesh.notes) report::tell_note(note);
     check_groups(scene, mesh);
+    check_elements(scene, mesh);
     if (choose) mesh = choose(std::move(mesh));
   });
   return broadcast(mesh);
