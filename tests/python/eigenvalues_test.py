@@ -97,14 +97,14 @@ class Eigenvalues(unittest.TestCase):
         self.assertEqual(len(found.unstable), len(found.values[found.values.real > 1e-2]))  # rounding at zero is no growth
 
     def test_of_an_undamped_symmetric_system_none_is_unstable(self):
-        n, k = 120, 1e9
+        n, k = 40, 1e9
         held = sp.diags([2 * k * np.ones(n), -k * np.ones(n - 1), -k * np.ones(n - 1)], [0, 1, -1]).tocsr()
         free = held.tolil()
         free[0, 0] = free[-1, -1] = k
         for K in (held, sp.block_diag([free.tocsr()] * 3).tocsr()):
             M = sp.identity(K.shape[0], format="csr")
-            found = chladni.complex_eigenvalues(given(M), None, given(K), up_to_Hz=5000.0)
-            self.assertGreater(len(found.values), 30)
+            found = chladni.complex_eigenvalues(given(M), None, given(K), up_to_Hz=4000.0)
+            self.assertGreater(len(found.values), 15)
             self.assertEqual(len(found.unstable), 0)
             self.assertLess(max(found.errors[abs(found.values) > 100.0]), 1e-6)
 
