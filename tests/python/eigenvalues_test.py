@@ -103,7 +103,7 @@ class Eigenvalues(unittest.TestCase):
         free[0, 0] = free[-1, -1] = k
         for K in (held, sp.block_diag([free.tocsr()] * 3).tocsr()):
             M = sp.identity(K.shape[0], format="csr")
-            found = chladni.complex_eigenvalues(given(M), None, given(K), up_to_Hz=4000.0)
+            found = chladni.complex_eigenvalues(given(M), None, given(K), up_to_Hz=8000.0)
             self.assertGreater(len(found.values), 15)
             self.assertEqual(len(found.unstable), 0)
             self.assertLess(max(found.errors[abs(found.values) > 100.0]), 1e-6)
