@@ -202,8 +202,10 @@ def _modes(system, omega, transposed):
 def _pairs(basis, omega, damped_up_to):
     """The wanted pairs of the projected problem: lambda, right and left vectors in V."""
     m = basis.V.shape[1]
-    A = np.block([[np.zeros((m, m)), np.eye(m)], [-basis.K_r, -basis.D_r]])
+    # In the unit of time in which the frequency is 1, so that no block outweighs the others.
+    A = np.block([[np.zeros((m, m)), np.eye(m)], [-basis.K_r / omega**2, -basis.D_r / omega]])
     values, left, right = scipy.linalg.eig(A, left=True)
+    values = omega * values
     wanted = (values.imag >= 0.0) & (values.imag <= omega) & (abs(values) <= BEYOND * omega)
     wanted &= values.real >= -damped_up_to * abs(values)
     wanted = np.flatnonzero(wanted)
@@ -296,7 +298,7 @@ def _rounding(basis, values, x, y):
     delta = sum(
         abs(values) ** power * system.sum(abs(A.getDiagonal().getArray()) @ moved)
         for A, power in ((system.K, 0), (system.D, 1), (system.M, 2)) if A is not None)  # fmt: skip
-    delta = 8.0 * np.finfo(float).eps * delta
+    delta = 16.0 * np.finfo(float).eps * delta
     slope = abs(np.einsum("ij,ij->j", y.conj(), basis.D_r @ x + 2.0 * values * x))
     return delta / np.maximum(np.maximum(slope, np.sqrt(delta)), 1e-300)
 
