@@ -179,6 +179,18 @@ void check_groups(const scene::Scene& scene, const mesh::Mesh& mesh)
   scene::check_groups(scene, names);
 }
 
+std::optional<std::string> note_of_overlap(const scene::Scene& scene, const mesh::Mesh& mesh)
+{
+  constexpr double worth_telling = 0.03;
+  const plate::RibOverlap overlap = plate::rib_overlap(mesh, scene.sections);
+  if (!(overlap.twice > worth_telling * overlap.mass)) return std::nullopt;
+  return fmt::format(
+      "surfaces that end on the mid-surface of another hold {:.3g} of {:.4g} kg twice, {:.1f} %, "
+      "and are longer than they are: a ventilated disc is too heavy and too soft; let ribs end at "
+      "the faces, or take solids (docs/how-to/meshes.md, Plates with ribs between them)",
+      overlap.twice, overlap.mass, 100.0 * overlap.twice / overlap.mass);
+}
+
 mesh::Mesh mesh_on_all_ranks(const scene::Scene& scene, const ChooseMesh& choose)
 {
   mesh::Mesh mesh;
@@ -187,6 +199,7 @@ mesh::Mesh mesh_on_all_ranks(const scene::Scene& scene, const ChooseMesh& choose
     for (const std::string& note : mesh.notes) report::tell_note(note);
     check_groups(scene, mesh);
     check_elements(scene, mesh);
+    if (const auto note = note_of_overlap(scene, mesh)) report::tell_note(*note);
     if (choose) mesh = choose(std::move(mesh));
   });
   return broadcast(mesh);

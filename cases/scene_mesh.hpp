@@ -32,6 +32,10 @@ void set_split(mesh::MeshOptions& mesh, const Split& into);
 /// @throws chladni::Error naming file, line and key of a group that it lacks.
 void check_groups(const scene::Scene& scene, const mesh::Mesh& mesh);
 
+/// A note where the shells of a mesh with all groups of the scene hold more than 3 % of their mass
+/// twice, by ribs that end on the mid-surfaces of plates.
+std::optional<std::string> note_of_overlap(const scene::Scene& scene, const mesh::Mesh& mesh);
+
 /// Returns a part of a mesh, or all of it.
 using ChooseMesh = std::function<mesh::Mesh(mesh::Mesh)>;
 

@@ -135,7 +135,9 @@ void mesh_and_print(const ChladniArguments& all, const Subject& subject)
   write_summary(arguments, summary, cost);
   fmt::print("\nwrote {}\nwrote {}\n", files.vtu.string(), files.page.string());
   if (choice.quality) mesh::check_usable(mesh, arguments.scene);
-  if (subject.scene) cases::check_groups(*subject.scene, mesh);  // now they can be looked up
+  if (!subject.scene) return;
+  cases::check_groups(*subject.scene, mesh);  // now they can be looked up
+  if (const auto note = cases::note_of_overlap(*subject.scene, mesh)) report::tell_note(*note);
 }
 
 }  // namespace

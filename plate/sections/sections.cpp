@@ -221,6 +221,95 @@ std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const SolidS
   return find_sections(mesh, sections, mesh::is_solid, "solid");
 }
 
+namespace {
+
+/// A surface element at one of its edges.
+struct EdgeSide {
+  const ShellSection* section;
+  Eigen::Vector3d inward, normal;  ///< unit vectors
+};
+
+/// An edge with the elements that share it.
+struct SharedEdge {
+  Eigen::Vector3d from, to;
+  std::vector<EdgeSide> sides;
+
+  double value(const Profile& profile) const
+  {
+    const Eigen::Vector3d middle = 0.5 * (from + to);
+    return value_at(profile, {middle[0], middle[1], middle[2]});
+  }
+};
+
+/// What the ribs on an edge hold twice, kg.
+double overlap_at(const SharedEdge& edge)
+{
+  const double goes_on = -std::cos(std::numbers::pi / 4.5);  // a fold of 40 degrees, as in a sheet
+  constexpr double least_sine = 0.3;                         // a flatter one is no rib
+  double least = goes_on, overlap = 0.0;
+  std::pair<std::size_t, std::size_t> plate{0, 0};
+  for (std::size_t i = 0; i < edge.sides.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double cosine = edge.sides[i].inward.dot(edge.sides[j].inward);
+      if (!(cosine < least)) continue;
+      least = cosine;
+      plate = {i, j};
+    }
+  if (plate.first == plate.second) return 0.0;
+  const EdgeSide& of_plate = edge.sides[plate.first];
+  const double t = edge.value(of_plate.section->thickness);
+  for (std::size_t k = 0; k < edge.sides.size(); ++k) {
+    const EdgeSide& rib = edge.sides[k];
+    const double sine = of_plate.normal.dot(rib.inward);
+    if (k == plate.first || k == plate.second || std::abs(sine) < least_sine) continue;
+    // From the edge to the face of the plate on the rib's side.
+    const double offset = edge.value(of_plate.section->offset) * (sine > 0.0 ? 1.0 : -1.0);
+    const double depth = std::clamp(0.5 * t + offset, 0.0, t) / std::abs(sine);
+    overlap += (edge.to - edge.from).norm() * depth * edge.value(rib.section->thickness) *
+               rib.section->material.density;
+  }
+  return overlap;
+}
+
+}  // namespace
+
+RibOverlap rib_overlap(const mesh::Mesh& mesh, std::span<const ShellSection> sections)
+{
+  const std::vector<int> section_of = section_of_group(mesh, sections);
+  std::map<std::pair<int, int>, SharedEdge> edges;
+  RibOverlap found{0.0, 0.0};
+  const auto at = [&](int node) { return Eigen::Vector3d(mesh.positions[node].data()); };
+  for (const mesh::ElementBlock& block : mesh.blocks)
+    for (int e = 0; mesh::is_surface(block.shape) && e < block.n_elements(); ++e) {
+      const int group = block.group[e], index = group < 0 ? -1 : section_of[group];
+      if (index < 0) continue;
+      const ShellSection& section = sections[index];
+      Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+      const std::vector<int> corners = mesh::corner_places(block);
+      for (const int place : corners)
+        centre += at(block.element_nodes(e)[place]) / double(corners.size());
+      const auto corner = [&](std::size_t i) { return at(block.element_nodes(e)[corners[i]]); };
+      const Eigen::Vector3d normal =
+          (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+      double area = 0.0;
+      for (const std::vector<int>& nodes : mesh::edges_of(block, e)) {
+        const Eigen::Vector3d from = at(nodes.front()), to = at(nodes.back()),
+                              along = (to - from).normalized(), away = centre - from;
+        area += 0.5 * (to - from).cross(away).norm();
+        SharedEdge& edge = edges[std::minmax(nodes.front(), nodes.back())];
+        edge.from = from;
+        edge.to = to;
+        const Eigen::Vector3d inward = (away - along * along.dot(away)).normalized();
+        edge.sides.push_back({&section, inward, normal});
+      }
+      const double t = value_at(section.thickness, {centre[0], centre[1], centre[2]});
+      found.mass += section.material.density * area * t;
+    }
+  for (const auto& [nodes, edge] : edges)
+    if (edge.sides.size() > 2) found.twice += overlap_at(edge);
+  return found;
+}
+
 SolidFrame solid_of_mesh(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element)
 {
   SolidFrame frame = solid_frame(block.shape, block.order, element_positions(mesh, block, element));

@@ -99,6 +99,16 @@ std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const ShellS
 std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const BeamSection> sections);
 std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const SolidSection> sections);
 
+/// What shells hold twice where one ends on the mid-surface of another that goes on, in kg.
+struct RibOverlap {
+  double twice;  ///< between that mid-surface and the face to which it ends
+  double mass;   ///< of all shells
+};
+
+/// The overlap at the edges that three or more surface elements share; two of them that go on over
+/// the edge are the plate, the others are ribs. Edges on the cuts of a sector are left out.
+RibOverlap rib_overlap(const mesh::Mesh& mesh, std::span<const ShellSection> sections);
+
 /// A solid at its integration points.
 /// @throws chladni::Error naming the element if it is turned inside out at one of them.
 SolidFrame solid_of_mesh(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element);

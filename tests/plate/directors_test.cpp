@@ -140,6 +140,35 @@ TEST_P(ElementAtFolds, MeetsItsNeighbourInOneDirectorBelowTheLimitAlone)
   }
 }
 
+TEST_P(ElementAtFolds, HoldTwiceWhatARibHasWithinAPlate)
+{
+  const Surface left = [](double u, double v) { return Vector3d(u - 1.0, v, 0.0); };
+  const auto overlap_of = [&](const std::vector<Surface>& surfaces, double offset) {
+    ShellModel model = shell_model(surfaces, grid(2, 3), iron, 0.05);
+    model.mesh.groups = {{.name = "plate", .dimension = 2, .nodes = {}},
+                         {.name = "rib", .dimension = 2, .nodes = {}}};
+    mesh::ElementBlock& block = model.mesh.blocks[0];
+    const int n_of_plate = 2 * block.n_elements() / int(surfaces.size());
+    for (int e = 0; e < block.n_elements(); ++e) block.group[e] = e < n_of_plate ? 0 : 1;
+    const std::vector<ShellSection> sections{
+        {.group = "plate", .material = iron, .thickness = 0.06, .offset = offset},
+        {.group = "rib", .material = iron, .thickness = 0.02}};
+    return rib_overlap(model.mesh, sections);
+  };
+  for (const double angle : {90.0, 60.0, 135.0}) {
+    const std::vector<Surface> joint{left, flap(0.0), flap(angle * degree)};
+    const double of_rib = iron.density * 0.02 / std::sin(angle * degree);
+    const RibOverlap found = overlap_of(joint, 0.0);
+    EXPECT_NEAR(found.twice, 0.03 * of_rib, 1e-9) << angle;
+    EXPECT_NEAR(found.mass, iron.density * (2.0 * 0.06 + 0.02), 1e-9) << angle;
+    // A plate that is drawn at its face towards the rib, or away from it.
+    EXPECT_NEAR(overlap_of(joint, -0.03).twice, 0.0, 1e-9) << angle;
+    EXPECT_NEAR(overlap_of(joint, 0.03).twice, 0.06 * of_rib, 1e-9) << angle;
+  }
+  // What is missing outside a corner is what is there twice inside it.
+  EXPECT_EQ(overlap_of({left, flap(90.0 * degree), flap(90.0 * degree)}, 0.0).twice, 0.0);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, ElementAtFolds, ::testing::ValuesIn(elements_under_test()),
                          element_name);
 
