@@ -106,6 +106,27 @@ void add_intervals(TextTable& table, const squeal::StabilityProfile& profile,
   }
 }
 
+/// Of one matrix of a disc that is not axisymmetric: those that grow where one grows most, the
+/// worst first; that one at least.
+void add_named_eigenvalues(TextTable& table, const squeal::EigenvalueMap& map)
+{
+  constexpr std::size_t most_told = 8;
+  Eigen::Index at = 0;
+  map.lambda.real().rowwise().maxCoeff().maxCoeff(&at);
+  std::vector<std::complex<double>> lambda(map.lambda.row(at).begin(), map.lambda.row(at).end());
+  std::ranges::sort(lambda, std::ranges::greater(), [](const auto& one) { return one.real(); });
+  std::string of = map.of;
+  if (map.angles.size() > 0)
+    of += fmt::format(", {:.4g} degrees", map.angles[at] * 180.0 / std::numbers::pi);
+  for (std::size_t j = 0; j < std::min(most_told, lambda.size()); ++j) {
+    if (j > 0 && !(lambda[j].real() > 0.0)) return;
+    add(table,
+        fmt::format("growth at {:.6g} rad/s of {:.2f} Hz ({})", map.speeds[at],
+                    lambda[j].imag() / (2.0 * std::numbers::pi), of),
+        lambda[j].real(), "1/s");
+  }
+}
+
 void add_critical_speed(TextTable& table, const squeal::SquealResults& results)
 {
   const Searched speed{"speed", "speeds", "rad/s"};
@@ -165,6 +186,9 @@ void add_map(TextTable& table, const squeal::StabilityMap& map)
   const double zero = rounding * 2.0 * std::numbers::pi * map.frequency_Hz.maxCoeff();
   add_count(table, "unstable ones of them", (map.growth.array() > zero).count());
   add(table, "largest growth rate in the map", map.growth.maxCoeff(), "1/s");
+  if (map.method.empty()) return;
+  table.rows.push_back({"method of the map", "Hill", ""});
+  add(table, "estimated error of the map's growth rates", map.error.value_or(0.0), "1/s");
 }
 
 void add_rotation_stability(TextTable& table, const squeal::RotationStability& stability,
@@ -252,6 +276,8 @@ TextTable describe(const squeal::SquealResults& results)
   add_missing(table, results);
   if (results.eigenvalues)
     add_count(table, "speeds with eigenvalues", results.eigenvalues->speeds.size());
+  for (const auto& map : {results.eigenvalues, results.frozen_eigenvalues})
+    if (map && !map->of.empty()) add_named_eigenvalues(table, *map);
   add_critical_speed(table, results);
   for (const squeal::CriticalValue& value : results.critical_values) add_critical(table, value);
   if (results.stability_table) add_unstable_modes(table, *results.stability_table);

@@ -147,7 +147,8 @@ Json budget_json(const squeal::ErrorBudget& budget)
   return Json::object({{"mesh", optional_json(budget.mesh)},
                        {"reduction", optional_json(budget.reduction)},
                        {"body", optional_json(budget.body)},
-                       {"modes_left_out", optional_json(budget.left_out)}});
+                       {"modes_left_out", optional_json(budget.left_out)},
+                       {"integration", optional_json(budget.integration)}});
 }
 
 Json stability_table_json(const StabilityTable& stability)

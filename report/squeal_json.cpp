@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <complex>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -56,8 +57,10 @@ Json eigenvalues_json(const squeal::EigenvalueMap& map)
     std::vector<Json> lambda;
     for (const std::complex<double>& value : map.lambda.row(i))
       lambda.push_back(Json::array({value.real(), value.imag()}));
-    speeds.push_back(
-        Json::object({{"speed_rad_s", map.speeds[i]}, {"lambda", Json::array(lambda)}}));
+    std::vector<Json::Member> at{{"speed_rad_s", map.speeds[i]}, {"lambda", Json::array(lambda)}};
+    if (map.angles.size() > 0)
+      at.emplace_back("angle_deg", map.angles[i] * 180.0 / std::numbers::pi);
+    speeds.push_back(Json::object(at));
   }
   return Json::array(speeds);
 }
@@ -236,6 +239,10 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
       {"failure", results.failure ? Json(*results.failure) : Json()}};
   if (results.eigenvalues)
     members.emplace_back("eigenvalues", eigenvalues_json(*results.eigenvalues));
+  if (results.frozen_eigenvalues) {
+    members.emplace_back("eigenvalues_of", results.eigenvalues->of);
+    members.emplace_back("frozen_eigenvalues", eigenvalues_json(*results.frozen_eigenvalues));
+  }
   if (results.searched_critical_speed) {
     const auto& critical = results.critical_speed;
     members.emplace_back("critical_speed_rad_s", critical ? Json(critical->speed) : Json());

@@ -6,8 +6,9 @@ import re
 # that is relative stands beside the dataset; one with a leading / counts from the root.
 _Rows = list[tuple[str, tuple[str, ...], dict[str, str]]]
 _OF_RESULTS: _Rows = [
-    (r"eigenvalues/speeds", ("speed",), {}),
-    (r"eigenvalues/lambda_(re|im)", ("speed", "eigenvalue"), {"speed": "speeds"}),
+    (r"(frozen_)?eigenvalues/speeds", ("speed",), {}),
+    (r"frozen_eigenvalues/angles", ("speed",), {"speed": "speeds"}),
+    (r"(frozen_)?eigenvalues/lambda_(re|im)", ("speed", "eigenvalue"), {"speed": "speeds"}),
     (r"eigenvalues/shapes/\d+/(re|im)", ("coordinate", "eigenvalue"), {}),
     (r".*mode_numbers", ("mode",), {}),
     (r"critical(_values/\d+)?/range/\w+", ("end",), {}),

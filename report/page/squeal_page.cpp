@@ -159,6 +159,7 @@ Json campbell_json(const squeal::EigenvalueMap& map, const ModeLooks& looks)
   return Json::object({{"speeds", rounded(map.speeds)},
                        {"frequency_Hz", rounded_rows(map.lambda.imag().transpose() / (2.0 * pi))},
                        {"growth", rounded_rows(map.lambda.real().transpose())},
+                       {"of", map.of},
                        {"looks", motion_looks(map, looks)}});
 }
 
@@ -306,6 +307,8 @@ std::vector<Json::Member> squeal_members(const squeal::SquealResults& results,
   std::vector<Json::Member> members;
   if (results.eigenvalues)
     members.emplace_back("campbell", campbell_json(*results.eigenvalues, looks));
+  if (results.frozen_eigenvalues)
+    members.emplace_back("frozen", campbell_json(*results.frozen_eigenvalues, looks));
   if (results.critical_speed) {
     members.emplace_back(
         "critical", Json::object({{"speed", rounded(results.critical_speed->speed)},

@@ -308,12 +308,13 @@ InertialDisc inertial_disc(const Disc& disc)
 {
   auto outcome = try_inertial_disc(disc);
   if (const auto* complaint = std::get_if<Complaint>(&outcome)) {
-    throw Error(
-        fmt::format("the disc is not axisymmetric: {}. Eigenvalues, critical values and limit "
-                    "cycles need an axisymmetric disc and both modes of each pair; the analyses "
-                    "\"stability\", \"critical-speed\", \"rotation-stability\", \"growth\" and "
-                    "\"transient\" do not, and \"motion-statistics\" shows how such a disc squeals",
-                    complaint->text));
+    throw Error(fmt::format(
+        "the disc is not axisymmetric: {}. Its equations have the period of a rotation, "
+        "so that it has no limit cycle and no state matrix whose modes could be left "
+        "out one by one: instead of \"limit-cycle-direct\" and \"limit-cycle-branch\" "
+        "ask for \"transient\" with \"motion-statistics\", and for \"gradients\" "
+        "instead of \"mode-sensitivity\"",
+        complaint->text));
   }
   return std::get<InertialDisc>(std::move(outcome));
 }

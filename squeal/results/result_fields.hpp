@@ -54,7 +54,9 @@ constexpr auto fields_of(std::type_identity<StabilityMap>)
                     Field{"values", "own", &T::values, "m", Presence::always, &check_some},
                     Field{"speeds", "rad/s", &T::speeds, "n", Presence::always, &check_some},
                     Field{"growth", "1/s", &T::growth, "m x n"},
-                    Field{"frequency", "Hz", &T::frequency_Hz, "m x n"}};
+                    Field{"frequency", "Hz", &T::frequency_Hz, "m x n"},
+                    Field{"method", "", &T::method, "", Presence::if_any},
+                    Field{"error", "1/s", &T::error}};
 }
 
 constexpr auto fields_of(std::type_identity<ModeFamily>)

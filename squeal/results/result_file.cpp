@@ -114,45 +114,50 @@ std::vector<CriticalValue> read_critical_values(const Reader& file)
   return values;
 }
 
-std::string shape_group(std::size_t i)
+std::string shape_group(const std::string& group, std::size_t i)
 {
-  return fmt::format("eigenvalues/shapes/{}", i + 1);
+  return fmt::format("{}/shapes/{}", group, i + 1);
 }
 
-void write_eigenvalues(Writer& file, const EigenvalueMap& map)
+void write_eigenvalues(Writer& file, const std::string& group, const EigenvalueMap& map)
 {
-  file.write("eigenvalues/speeds", map.speeds, "rad/s");
-  file.write("eigenvalues/lambda_re", map.lambda.real(), "1/s");
-  file.write("eigenvalues/lambda_im", map.lambda.imag(), "rad/s");
+  file.write(group + "/speeds", map.speeds, "rad/s");
+  file.write(group + "/lambda_re", map.lambda.real(), "1/s");
+  file.write(group + "/lambda_im", map.lambda.imag(), "rad/s");
+  if (!map.of.empty()) file.write(group + "/of", map.of);
+  if (map.angles.size() > 0) file.write(group + "/angles", map.angles, "rad");
   if (!map.mode_numbers.empty())
-    file.write("eigenvalues/mode_numbers", std::span<const int>(map.mode_numbers), "1");
+    file.write(group + "/mode_numbers", std::span<const int>(map.mode_numbers), "1");
   for (std::size_t i = 0; i < map.shapes.size(); ++i) {
-    file.write(shape_group(i) + "/re", map.shapes[i].real(), "1");
-    file.write(shape_group(i) + "/im", map.shapes[i].imag(), "1");
+    file.write(shape_group(group, i) + "/re", map.shapes[i].real(), "1");
+    file.write(shape_group(group, i) + "/im", map.shapes[i].imag(), "1");
   }
 }
 
-EigenvalueMap read_eigenvalues(const Reader& file)
+EigenvalueMap read_eigenvalues(const Reader& file, const std::string& group)
 {
-  const Eigen::VectorXd speeds = file.vector("eigenvalues/speeds");
-  const Eigen::MatrixXd re = file.matrix("eigenvalues/lambda_re", {speeds.size()});
-  const Eigen::MatrixXd im = file.matrix("eigenvalues/lambda_im", {speeds.size(), re.cols()});
-  if (re.size() == 0) file.fail("eigenvalues/lambda_re", "it must have a value at each speed");
+  const Eigen::VectorXd speeds = file.vector(group + "/speeds");
+  const Eigen::MatrixXd re = file.matrix(group + "/lambda_re", {speeds.size()});
+  const Eigen::MatrixXd im = file.matrix(group + "/lambda_im", {speeds.size(), re.cols()});
+  if (re.size() == 0) file.fail(group + "/lambda_re", "it must have a value at each speed");
   EigenvalueMap map{speeds, re + i_unit * im};
-  const std::string numbers = "eigenvalues/mode_numbers";
+  if (file.contains(group + "/of")) map.of = file.text(group + "/of");
+  if (file.contains(group + "/angles")) map.angles = file.vector(group + "/angles", speeds.size());
+  const std::string numbers = group + "/mode_numbers";
   if (file.contains(numbers)) {
     map.mode_numbers = files::read_counts(file, numbers);
     check_modes(file, numbers, map.mode_numbers);
   }
-  for (std::size_t i = 0; file.contains(shape_group(i)); ++i) {
-    const Eigen::MatrixXd shape = file.matrix(shape_group(i) + "/re", {files::any, re.cols()});
+  for (std::size_t i = 0; file.contains(shape_group(group, i)); ++i) {
+    const std::string name = shape_group(group, i);
+    const Eigen::MatrixXd shape = file.matrix(name + "/re", {files::any, re.cols()});
     if (shape.rows() < std::ssize(map.mode_numbers))
-      file.fail(shape_group(i) + "/re", "expected a row for each of eigenvalues/mode_numbers");
-    map.shapes.emplace_back(
-        shape + i_unit * file.matrix(shape_group(i) + "/im", {shape.rows(), shape.cols()}));
+      file.fail(name + "/re", fmt::format("expected a row for each of {}", numbers));
+    map.shapes.emplace_back(shape +
+                            i_unit * file.matrix(name + "/im", {shape.rows(), shape.cols()}));
   }
   if (!map.shapes.empty() && std::ssize(map.shapes) != speeds.size())
-    file.fail("eigenvalues/shapes", "there must be those of each speed");
+    file.fail(group + "/shapes", "there must be those of each speed");
   return map;
 }
 
@@ -492,7 +497,9 @@ void read_if_any(const Reader& file, const std::string& group, std::optional<T>&
 
 void write_stability(Writer& file, const SquealResults& results)
 {
-  if (results.eigenvalues) write_eigenvalues(file, *results.eigenvalues);
+  if (results.eigenvalues) write_eigenvalues(file, "eigenvalues", *results.eigenvalues);
+  if (results.frozen_eigenvalues)
+    write_eigenvalues(file, "frozen_eigenvalues", *results.frozen_eigenvalues);
   if (results.searched_critical_speed) {
     file.group("critical");
     if (results.speed_stability) write_profile(file, "critical", *results.speed_stability, "rad/s");
@@ -557,7 +564,9 @@ SquealResults read_results(const Reader& file)
   SquealResults results;
   results.largest_split = read_if(file, "largest_split");
   results.wheel_radius = read_if(file, "wheel_radius");
-  if (file.contains("eigenvalues")) results.eigenvalues = read_eigenvalues(file);
+  if (file.contains("eigenvalues")) results.eigenvalues = read_eigenvalues(file, "eigenvalues");
+  if (file.contains("frozen_eigenvalues"))
+    results.frozen_eigenvalues = read_eigenvalues(file, "frozen_eigenvalues");
   results.searched_critical_speed = file.contains("critical");
   results.speed_stability = read_profile(file, "critical");
   if (file.contains("critical/speed"))

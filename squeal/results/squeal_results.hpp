@@ -27,7 +27,8 @@ struct SquealResults {
   /// absent when the disc is not axisymmetric. A split of 1e-4 changes the growth rate of the
   /// reference disc by 1e-4 of its value, 1e-3 by 1e-2.
   std::optional<double> largest_split;
-  std::optional<EigenvalueMap> eigenvalues;
+  std::optional<EigenvalueMap> eigenvalues;  ///< of the mean matrix if the disc has asymmetry
+  std::optional<EigenvalueMap> frozen_eigenvalues;  ///< of such a disc at its worst frozen angle
   bool searched_critical_speed = false;  ///< distinguishes "none in the range" from "not asked for"
   std::optional<CriticalSpeed> critical_speed;
   std::optional<StabilityProfile> speed_stability;  ///< over the speeds of that search

@@ -18,6 +18,9 @@ struct EigenvalueMap {
   /// `LimitCycle::amplitude`, then of pads with a mass; norm 1. Empty for models without a body.
   std::vector<Eigen::MatrixXcd> shapes = {};
   std::vector<int> mode_numbers = {};  ///< 1-based in the body; empty without shapes, in old files
+  /// Of a disc that is not axisymmetric "mean matrix" or "worst frozen angle"; else empty.
+  std::string of = {};
+  Eigen::VectorXd angles = {};  ///< [m] rad, at which such a disc stands; else empty
 };
 
 /// The least stable motion of the sliding disc at one value of a parameter.
@@ -98,11 +101,13 @@ struct CriticalValue {
 
 /// Least stable eigenvalue of the sliding disc over the speed and another parameter.
 struct StabilityMap {
-  std::string parameter;         ///< `key_of` a MapParameter
-  Eigen::VectorXd values;        ///< [m] in the unit of the parameter
-  Eigen::VectorXd speeds;        ///< [n] rad/s
-  Eigen::MatrixXd growth;        ///< [m x n] largest growth rate, 1/s
-  Eigen::MatrixXd frequency_Hz;  ///< [m x n] frequency of the least stable oscillation
+  std::string parameter;             ///< `key_of` a MapParameter
+  Eigen::VectorXd values;            ///< [m] in the unit of the parameter
+  Eigen::VectorXd speeds;            ///< [n] rad/s
+  Eigen::MatrixXd growth;            ///< [m x n] largest growth rate, 1/s
+  Eigen::MatrixXd frequency_Hz;      ///< [m x n] frequency of the least stable oscillation
+  std::string method = {};           ///< "hill" for discs that are not axisymmetric, else empty
+  std::optional<double> error = {};  ///< estimated, of the growth rates by Hill's method, 1/s
 };
 
 /// Stability of a disc that need not be axisymmetric over the speed; see rotation_stability.hpp.

@@ -30,25 +30,40 @@ constexpr double left_out = 0.1;
 /// Of a period, for the disc that stands; no harmonic below it repeats at these angles.
 constexpr int n_frozen_angles = 24;
 
+/// An exponent, and the doubt of an estimate.
+struct OneExponent {
+  std::complex<double> lambda;
+  double doubt;
+};
+
 /// Of the groups, and of all of them what the sum of their growth rates is off the trace.
-HillExponents exponents_of(const std::vector<NearGroup>& groups, const TurningModes& modes)
+HillExponents exponents_of_groups(const std::vector<NearGroup>& groups, const TurningModes& modes)
 {
-  std::vector<std::complex<double>> all;
+  std::vector<OneExponent> all;
   HillExponents result{{}, 0, 0.0, 0, 0};
   double trace = modes.lambda.sum().real();
-  Index n_states = 0;
+  Index n_solved = 0;
   for (const NearGroup& group : groups) {
     const GroupExponents found = group_exponents(group, modes.step);
     trace -= (group.has_mirror ? 2.0 : 1.0) * found.lambda.sum().real();
-    n_states += (group.has_mirror ? 2 : 1) * found.lambda.size();
     for (const std::complex<double>& lambda : found.lambda)
-      if (group.has_mirror || lambda.imag() >= 0.0) all.push_back(lambda);
+      if (group.has_mirror || lambda.imag() >= 0.0)
+        all.push_back({lambda, group.doubt > 0.0 ? group.doubt + found.error : 0.0});
+    if (group.doubt > 0.0) continue;
+    n_solved += (group.has_mirror ? 2 : 1) * found.lambda.size();
     result.error = std::max({result.error, group.error, found.error});
+    result.harmonics = std::max(result.harmonics, static_cast<int>(group.highest));
     result.coupled = std::max(result.coupled, found.lambda.size());
   }
-  std::ranges::sort(all, [](const auto& a, const auto& b) { return a.real() > b.real(); });
-  result.lambda = Eigen::Map<Eigen::VectorXcd>(all.data(), static_cast<Eigen::Index>(all.size()));
-  if (n_states == modes.size()) result.error = std::max(result.error, std::abs(trace));
+  std::ranges::sort(all, std::ranges::greater(),
+                    [](const OneExponent& one) { return one.lambda.real(); });
+  result.lambda.resize(std::ssize(all));
+  result.doubt.resize(std::ssize(all));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    result.lambda[static_cast<Index>(i)] = all[i].lambda;
+    result.doubt[static_cast<Index>(i)] = all[i].doubt;
+  }
+  if (n_solved == modes.size()) result.error = std::max(result.error, std::abs(trace));
   return result;
 }
 
@@ -74,23 +89,36 @@ int Hill::nu(double speed) const
 
 HillExponents Hill::exponents(double speed, std::optional<Index> n_least_stable) const
 {
-  const TurningHarmonics harmonics = this->harmonics(speed);
+  if (!n_least_stable) return exponents_of(speed, {});
+  return exponents_of(speed, GroupsAsked{.least_stable = *n_least_stable});
+}
+
+HillExponents Hill::followable(double speed) const
+{
+  return exponents_of(speed, GroupsAsked{.least_stable = 1, .with_estimates = true});
+}
+
+struct Hill::Solved {
+  TurningHarmonics harmonics;
+  TurningModes modes;
+  std::vector<NearGroup> groups;
+};
+
+Hill::Solved Hill::solved(double speed, const std::optional<GroupsAsked>& asked) const
+{
+  TurningHarmonics harmonics = this->harmonics(speed);
   const int nu = std::max(1, harmonics.nu);
   const Eigen::Index highest = harmonics.highest / nu;
   // The harmonics of the corrections, three eighths of the samples, hold those of the equations.
   const Index first = std::min(n_samples_max, power_of_two(8 * highest / 3 + 1));
   for (Index N = first; 2 * highest < N && N <= n_samples_max; N *= 2) {
     require_room(nu * speed, harmonics.A_0.rows(), N);
-    const TurningModes modes = turning_modes(harmonics, N);
-    const std::vector<NearGroup> groups = near_groups(modes, tolerance_, n_least_stable);
+    TurningModes modes = turning_modes(harmonics, N);
+    std::vector<NearGroup> groups = near_groups(modes, tolerance_, asked);
     double error = 0.0;
-    for (const NearGroup& group : groups) error = std::max(error, group.error);
-    if (error > tolerance_) continue;
-    HillExponents result = exponents_of(groups, modes);
-    result.error += harmonics.left;
-    result.nu = harmonics.nu;
-    result.harmonics = nu * static_cast<int>(highest == 0 ? 0 : groups.front().highest);
-    return result;
+    for (const NearGroup& group : groups)
+      if (group.doubt == 0.0) error = std::max(error, group.error);
+    if (error <= tolerance_) return {std::move(harmonics), std::move(modes), std::move(groups)};
   }
   throw Error(
       fmt::format("rotation-stability at {:.6g} rad/s: {} harmonics of the rotation are not enough "
@@ -99,17 +127,134 @@ HillExponents Hill::exponents(double speed, std::optional<Index> n_least_stable)
                   speed, n_samples_max / 2 * nu, tolerance_));
 }
 
-double Hill::frozen_growth(double speed, int nu) const
+HillExponents Hill::exponents_of(double speed, const std::optional<GroupsAsked>& asked) const
+{
+  const Solved found = solved(speed, asked);
+  HillExponents result = exponents_of_groups(found.groups, found.modes);
+  result.error += found.harmonics.left;
+  result.nu = found.harmonics.nu;
+  result.harmonics *= found.modes.highest == 0 ? 0 : std::max(1, result.nu);
+  return result;
+}
+
+namespace {
+
+/// The motion of all states that belongs to one of a group, in the eigenvectors of A_0.
+/// @param of  `group_motion`
+Eigen::MatrixXcd whole_motion(const NearGroup& group, const Eigen::MatrixXcd& of, Index m)
+{
+  const Index g = of.rows(), N = of.cols();
+  const AngleSamples X = samples_of(group.X);
+  Eigen::MatrixXcd y(m, N);
+  for (Index s = 0; s < N; ++s)
+    y.col(s) = Eigen::Map<const Eigen::MatrixXcd>(X.col(s).data(), m, g) * of.col(s);
+  y(group.states, every) += of;
+  return y;
+}
+
+/// A group, and one of its exponents.
+struct ExponentOfGroup {
+  const NearGroup* group;
+  std::complex<double> lambda;
+};
+
+/// All of some groups, by descending growth.
+std::vector<ExponentOfGroup> ordered_exponents(const std::vector<NearGroup>& groups, double step)
+{
+  std::vector<ExponentOfGroup> all;
+  for (const NearGroup& group : groups)
+    for (const std::complex<double>& lambda : group_exponents(group, step).lambda)
+      if (group.has_mirror || lambda.imag() >= 0.0) all.push_back({&group, lambda});
+  std::ranges::stable_sort(all, std::ranges::greater(),
+                           [](const ExponentOfGroup& one) { return one.lambda.real(); });
+  return all;
+}
+
+/// Those that may be replicas of lambda, the nearest first.
+std::vector<ExponentOfGroup> replicas_of(std::complex<double> lambda,
+                                         std::vector<ExponentOfGroup> all, double step)
+{
+  constexpr double near = 1e-2;  // 1/s: both are solved to less
+  const auto distance = [&](const ExponentOfGroup& one) {
+    const std::complex<double> d = one.lambda - lambda;
+    return std::hypot(d.real(), d.imag() - step * std::round(d.imag() / step));
+  };
+  std::erase_if(all, [&](const ExponentOfGroup& one) { return distance(one) > near; });
+  std::ranges::stable_sort(all, {}, distance);
+  return all;
+}
+
+/// At the angles -2 pi s / N in place of 2 pi s / N.
+Eigen::MatrixXcd backwards(const Eigen::MatrixXcd& z)
+{
+  Eigen::MatrixXcd turned = z;
+  if (z.size() == 0) return turned;
+  turned.rightCols(z.cols() - 1) = z.rightCols(z.cols() - 1).rowwise().reverse();
+  return turned;
+}
+
+}  // namespace
+
+FloquetMotions Hill::motions(double speed, Index n) const
+{
+  const GroupsAsked asked{.least_stable = n};
+  const Solved found = solved(speed, asked);
+  const TurningModes& modes = found.modes;
+  const std::vector<NearGroup> left_groups = near_groups(adjoint_of(modes), tolerance_, asked);
+  const auto of_left = ordered_exponents(left_groups, modes.step);
+  const Eigen::MatrixXcd& V = found.harmonics.V;
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> transposed(Eigen::MatrixXcd(V.transpose()));
+  FloquetMotions result{modes.step, {}, {}, {}, std::max(1, found.harmonics.nu)};
+  std::vector<std::complex<double>> lambda;
+  const auto whole = [&](const NearGroup& group, std::complex<double> exponent) {
+    const Eigen::MatrixXcd of_group = group_motion(group, modes.step, exponent);
+    return of_group.size() > 0 ? whole_motion(group, of_group, modes.size()) : of_group;
+  };
+  for (const auto& [group, exponent] : ordered_exponents(found.groups, modes.step)) {
+    if (!lambda.empty() && (!(exponent.real() > 0.0) || std::ssize(lambda) == n)) break;
+    const Eigen::MatrixXcd y = whole(*group, exponent);
+    if (y.size() == 0) continue;
+    for (const ExponentOfGroup& left : replicas_of(exponent, of_left, modes.step)) {
+      // Of one motion l^T r is constant, of two its mean vanishes.
+      constexpr double constant = 1e-3;
+      const Eigen::MatrixXcd z = backwards(whole(*left.group, exponent));
+      if (z.size() == 0) continue;
+      const Eigen::RowVectorXcd product = y.cwiseProduct(z).colwise().sum();
+      const std::complex<double> mean = product.mean();
+      if (!((product.array() - mean).abs().maxCoeff() < constant * std::abs(mean))) continue;
+      result.right.emplace_back(V * y);
+      result.left.emplace_back(transposed.solve(z) / mean);
+      lambda.push_back(exponent);
+      break;
+    }
+  }
+  result.lambda = Eigen::Map<Eigen::VectorXcd>(lambda.data(), std::ssize(lambda));
+  return result;
+}
+
+FrozenDisc Hill::worst_frozen(double speed, int nu) const
 {
   TurningBrake frozen = brake(speed);
   nu = std::max(1, nu);
-  double growth = -std::numeric_limits<double>::infinity();
+  FrozenDisc worst{0.0, -std::numeric_limits<double>::infinity(), {}};
   for (int s = 0; s < n_frozen_angles; ++s) {
     // Each in another period: those harmonics that were left out of the motion count here.
     const double angle = 2.0 * pi * (double(s) / n_frozen_angles + s % nu) / nu;
-    growth = std::max(growth, linear::real_eigenvalues(frozen.at(angle)).real().maxCoeff());
+    Eigen::MatrixXd A = frozen.at(angle);
+    const double growth = linear::real_eigenvalues(A).real().maxCoeff();
+    if (growth > worst.growth) worst = {angle, growth, std::move(A)};
   }
-  return growth;
+  return worst;
+}
+
+Eigen::MatrixXd Hill::mean_matrix(double speed) const
+{
+  // No harmonic of so many angles falls on the mean.
+  TurningBrake turning = brake(speed);
+  const int n_angles = bound_ + 1;
+  Eigen::MatrixXd A_0 = turning.at(0.0);
+  for (int s = 1; s < n_angles; ++s) A_0 += turning.at(2.0 * pi * double(s) / n_angles);
+  return A_0 / double(n_angles);
 }
 
 namespace {
@@ -239,6 +384,34 @@ class Orbit {
     return flag;
   }
 
+  /// At N angles that motion whose exponent per angle is nearest to `exponent`, divided by its
+  /// growth; what it fails to return to itself by is the relative error.
+  struct Motion {
+    Eigen::MatrixXcd at;
+    double error;
+  };
+  Motion motion(Complex exponent, Index N) const
+  {
+    const double h = 2.0 * pi / double(steps_.size());
+    const Complex by_step = std::exp(-h * exponent);
+    Square<G> product = Square<G>::Identity(g_, g_);
+    for (const Square<G>& step : steps_) product = (by_step * (step * product)).eval();
+    Motion found{Eigen::MatrixXcd(g_, N), std::numeric_limits<double>::infinity()};
+    if (!product.allFinite()) return found;
+    const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver{Eigen::MatrixXcd(product)};
+    Index nearest = 0;
+    (solver.eigenvalues().array() - 1.0).abs().minCoeff(&nearest);
+    Eigen::VectorXcd c = solver.eigenvectors().col(nearest);
+    const Eigen::VectorXcd start = c;
+    const auto every_step = std::ssize(steps_) / N;
+    for (Index s = 0; s < std::ssize(steps_); ++s) {
+      if (s % every_step == 0) found.at.col(s / every_step) = c;
+      c = (by_step * (steps_[static_cast<std::size_t>(s)] * c)).eval();
+    }
+    found.error = (c - start).norm();
+    return found;
+  }
+
  private:
   /// One period from Q, which becomes what it is at the end.
   Flag passed(Square<G>& Q) const
@@ -334,6 +507,17 @@ GroupExponents integrated(const NearGroup& group, double step)
 }
 
 }  // namespace
+
+Eigen::MatrixXcd group_motion(const NearGroup& group, double step, Complex lambda)
+{
+  constexpr double hidden = 1e-5;  // of the motion
+  const auto g = static_cast<Index>(group.states.size());
+  const Shifted F = shifted(group, step);
+  const Index M = 2 * std::max(first_steps(F, g, step), group.F.cols());
+  const auto motion =
+      Orbit<Eigen::Dynamic>(F.c, g, M).motion(lambda / step - F.mean, group.F.cols());
+  return motion.error < hidden ? motion.at : Eigen::MatrixXcd();
+}
 
 GroupExponents group_exponents(const NearGroup& group, double step)
 {

@@ -18,9 +18,27 @@ struct HillExponents {
   /// it is the one with the frequency of the motion in the inertial frame.
   Eigen::VectorXcd lambda;
   int harmonics;         ///< highest harmonic K in the corrections by distant states
-  double error;          ///< estimated error of all growth rates, 1/s
+  double error;          ///< estimated error of all growth rates that are no estimates, 1/s
   Eigen::Index coupled;  ///< largest number of states in one group
   int nu;                ///< the equations have nu periods in a rotation; 0: they are constant
+  Eigen::VectorXd doubt = {};  ///< [n] of those that are estimates, 1/s; 0 of the others
+};
+
+/// A disc that stands at an angle, under pads that slide as if it turned.
+struct FrozenDisc {
+  double angle;       ///< rad
+  double growth;      ///< largest, 1/s
+  Eigen::MatrixXd A;  ///< 1/s
+};
+
+/// Motions exp(lambda t) r(phi) of a turning disc with their left vectors l(phi), both with the
+/// period of the equations.
+struct FloquetMotions {
+  double step;                          ///< rad/s, nu times the speed
+  Eigen::VectorXcd lambda;              ///< [k] 1/s, by descending growth
+  std::vector<Eigen::MatrixXcd> right;  ///< [k] of [m x N]: r at the angles 2 pi s / (nu N)
+  std::vector<Eigen::MatrixXcd> left;   ///< [k] of [m x N]: l, with l^T r = 1 in the mean
+  int nu;                               ///< periods of the equations in a rotation, at least 1
 };
 
 /// Hill's method: motion and equations are expanded into harmonics of the rotation,
@@ -43,18 +61,39 @@ class Hill {
   /// @throws chladni::Error when K = 512 nu is not sufficient.
   HillExponents exponents(double speed, std::optional<Eigen::Index> n_least_stable = {}) const;
 
+  /// The exponents of all motions; those that cannot grow are estimates by the second order of the
+  /// harmonics, in a small part of the time.
+  HillExponents followable(double speed) const;
+
+  /// The motions that grow most, up to `n`, the first of them and others that grow. Of motions that
+  /// act on each other some may be missing beside one that grows much faster.
+  FloquetMotions motions(double speed, Eigen::Index n) const;
+
+  /// The brake at a speed (rad/s) between other pads, in the coordinates of this one's motions.
+  TurningBrake brake(const SquealOptions& options, double speed) const
+  {
+    return {disc_, coordinates_, options, speed};
+  }
+
   /// Number of periods of the equations in a rotation at this speed (rad/s); 0: they are constant.
   int nu(double speed) const;
 
-  /// Largest growth rate (1/s) of the matrices A(phi) with the disc frozen at an angle phi, over 24
-  /// angles of a period taken from different periods. This is the true growth only for an
-  /// axisymmetric disc.
+  /// The matrix A(phi) that grows most with the disc frozen at an angle phi, of 24 angles of a
+  /// period taken from different periods. Its growth is the true one only for an axisymmetric disc.
   /// @param nu  number of periods at this speed
-  double frozen_growth(double speed, int nu) const;
+  FrozenDisc worst_frozen(double speed, int nu) const;
+  double frozen_growth(double speed, int nu) const { return worst_frozen(speed, nu).growth; }
+
+  /// A_0, the mean of A(phi) over the turn in the coordinates z of the inertial frame: only what is
+  /// not axisymmetric is averaged.
+  Eigen::MatrixXd mean_matrix(double speed) const;
 
  private:
+  struct Solved;
+  Solved solved(double speed, const std::optional<GroupsAsked>& asked) const;
+  HillExponents exponents_of(double speed, const std::optional<GroupsAsked>& asked) const;
   TurningHarmonics harmonics(double speed) const;
-  TurningBrake brake(double speed) const { return {disc_, coordinates_, options_, speed}; }
+  TurningBrake brake(double speed) const { return brake(options_, speed); }
 
   Disc disc_;
   SquealOptions options_;
@@ -68,6 +107,12 @@ struct GroupExponents {
   Eigen::VectorXcd lambda;  ///< [g] 1/s
   double error;             ///< estimated error, 1/s
 };
+
+/// The periodic part of the motion of a group with one of its exponents, up to a factor.
+/// @param lambda  the exponent, or a replica of it, 1/s
+/// @return [g x N] at N angles of a period; empty where a faster growing motion of the group hides
+///         it
+Eigen::MatrixXcd group_motion(const NearGroup& group, double step, std::complex<double> lambda);
 
 /// Characteristic exponents of y' = F(phi) y, phi = step t. For one state lambda is the mean of F.
 /// For more states it follows from the eigenvalues mu of the product of exponentials of the Magnus

@@ -27,7 +27,7 @@ constexpr int exponents_scanned = 32;
 ExponentsAt exponents_over(const FlexibleDisc& brake, const StabilityCase& search)
 {
   const auto sample = [](const Hill& hill, double value, double speed) {
-    HillExponents motion = hill.exponents(speed);
+    HillExponents motion = hill.followable(speed);
     const Index n = motion.lambda.size();
     return ExponentSample{value, speed, std::move(motion), Eigen::VectorXd::Zero(n)};
   };
@@ -170,6 +170,23 @@ StabilityProfile profile_of(const StabilityTable& table)
   return profile;
 }
 
+StabilityMap turning_map(const FlexibleDisc& brake, const MapCase& range, const SpeedRange& speeds)
+{
+  StabilityMap map = empty_map(range, speeds);
+  map.method = "hill";
+  Eigen::MatrixXd error(map.growth.rows(), map.growth.cols());
+  for_each_index(static_cast<int>(map.growth.size()), [&](int k) {
+    const Index i = k % map.growth.rows(), j = k / map.growth.rows();
+    const Hill hill(brake.disc(), with_parameter(brake.options(), range.parameter, map.values[i]));
+    const HillExponents at = hill.exponents(map.speeds[j], 1);
+    map.growth(i, j) = at.lambda[0].real();
+    map.frequency_Hz(i, j) = std::abs(at.lambda[0].imag()) / (2.0 * std::numbers::pi);
+    error(i, j) = at.error;
+  });
+  map.error = error.maxCoeff();
+  return map;
+}
+
 namespace {
 
 using Complex = std::complex<double>;
@@ -221,12 +238,15 @@ ExponentSample ordered(ExponentSample sample, const Expected& expected)
                    replica_cost * std::abs(turns - expected.turns[j]) * sample.speed;
     }
   sample.turns = expected.turns;
+  const Eigen::VectorXd doubt = sample.motion.doubt;
+  sample.motion.doubt = Eigen::VectorXd::Zero(m);
   sample.motion.lambda = expected.lambda - Complex(0.0, sample.speed) * expected.turns;
   for (Index k = 0; k < std::min(n, m); ++k) {
     Index i = 0, j = 0;
     cost.minCoeff(&i, &j);
     sample.turns[j] = turns_to(sample, found[i], expected.lambda[j]);
     sample.motion.lambda[j] = found[i];
+    if (doubt.size() > 0) sample.motion.doubt[j] = doubt[i];
     cost.row(i).setConstant(std::numeric_limits<double>::infinity());
     cost.col(j).setConstant(std::numeric_limits<double>::infinity());
   }
@@ -284,6 +304,25 @@ std::vector<ExponentSample> followed_exponents(const ExponentsAt& exponents,
     last = samples[i];
   }
   return samples;
+}
+
+std::optional<CriticalSpeed> turning_critical_speed(const FlexibleDisc& brake,
+                                                    const StabilityTable& table)
+{
+  const StabilityProfile profile = profile_of(table);
+  const std::optional<StabilityPoint> lost = first_loss(profile);
+  if (!lost) return std::nullopt;
+  const Index n = table.values.size();
+  const double step = n > 1 ? (table.values[n - 1] - table.values[0]) / double(n - 1) : 0.0;
+  const double h = first_step * lost->value;
+  const Hill hill(brake.disc(), brake.options());
+  const HillExponents below = hill.exponents(lost->value - h, 1),
+                      above = hill.exponents(lost->value + h, 1);
+  const double slope = (above.lambda[0] - below.lambda[0]).real() / (2.0 * h);
+  CriticalSpeed critical{lost->value, lost->frequency_Hz};
+  critical.budget.integration =
+      limit_error * step + std::max(table.error, above.error) / std::abs(slope);
+  return critical;
 }
 
 std::vector<UnstableInterval> unstable_intervals(const ExponentsAt& exponents,

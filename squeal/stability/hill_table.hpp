@@ -29,7 +29,8 @@ struct ExponentSample {
   double frequency_Hz(Eigen::Index j) const;
   /// Growth within the estimated error does not count as instability.
   bool is_unstable(Eigen::Index j) const { return growth(j) > motion.error; }
-  double doubt_of(Eigen::Index /*j*/) const { return motion.error; }
+  /// An estimate may be off by its own doubt.
+  double doubt_of(Eigen::Index j) const { return motion.error - motion.doubt[j]; }
   StabilityPoint point(Eigen::Index j) const { return {value, growth(j), frequency_Hz(j)}; }
 };
 
@@ -66,7 +67,8 @@ class TurningMotions {
   bool are_of(const FlexibleDisc& brake, const StabilityCase& search) const;
 
   /// The table of the motions with a frequency in the band. It has no families of modes, shares and
-  /// works, because these need one shape for each motion.
+  /// works, because these need one shape for each motion. Where a motion cannot grow its exponent
+  /// is an estimate by the second order of the harmonics.
   /// @throws chladni::Error as Hill's method.
   StabilityTable table(const std::optional<FrequencyBand>& band);
 
@@ -101,6 +103,15 @@ class TurningTables {
 /// The table of a single analysis.
 /// @throws chladni::Error as Hill's method.
 StabilityTable turning_table(const FlexibleDisc& brake, const StabilityCase& search);
+
+/// Largest growth rates over the speeds and a parameter by Hill's method, with their error.
+/// @throws chladni::Error as Hill's method.
+StabilityMap turning_map(const FlexibleDisc& brake, const MapCase& range, const SpeedRange& speeds);
+
+/// The first loss of stability in a table over the speed, absent where there is none, with the
+/// error that the method leaves: of the search, and that of the growth over its slope.
+std::optional<CriticalSpeed> turning_critical_speed(const FlexibleDisc& brake,
+                                                    const StabilityTable& table);
 
 /// Summary of a table over its range: the least stable motions at the ends, and the intervals in
 /// which any motion grows.

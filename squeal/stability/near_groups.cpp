@@ -255,7 +255,7 @@ class Reduction {
     if (error > tolerance_ && c_.cwiseAbs2().maxCoeff() > long_share_limit * long_share_limit)
       return worst(c_);
     for (Index j = 0; j < g_; ++j) F_.row(j * g_ + j).array() += lambda(j);
-    return NearGroup{states_, true, harmonics_of(F_), kept_, error};
+    return NearGroup{states_, true, harmonics_of(F_), kept_, error, std::move(c_)};
   }
 
   const TurningModes* modes_;
@@ -470,6 +470,8 @@ NearGroup equations_alone(const States& states, const Sets& sets, const TurningM
   for (const Index i : states) at.push_back(std::ranges::lower_bound(closed, i) - closed.begin());
   const Index N = power_of_two(2 * modes.highest + 1);
   NearGroup group{states, true, AngleHarmonics::Zero(g * g, N), modes.highest, enough};
+  group.doubt = order.doubt(states).maxCoeff();
+  if (group.doubt == 0.0) group.error = 0.0;
   for (Index k = 1; k <= modes.highest; ++k) {
     const Eigen::MatrixXcd B_k = modes.harmonic(k)(closed, closed);
     group.F.col(k) = coupling(modes, B_k, closed)(at, at).reshaped();
@@ -494,9 +496,9 @@ Estimates estimates_of(const States& states, const Sets& sets, const TurningMode
   return {alone.lambda.real(), found.doubt + alone.error};
 }
 
-/// Marks, by their lowest states, the sets that may hold one of the n motions that grow most.
+/// Marks the states of the sets that are asked for.
 std::vector<char> may_be_wanted(const Sets& sets, const TurningModes& modes,
-                                const SecondOrder& order, Index n)
+                                const SecondOrder& order, const GroupsAsked& asked)
 {
   std::vector<char> wanted(static_cast<std::size_t>(modes.size()), 0);
   std::vector<double> at_least, at_most;
@@ -505,9 +507,10 @@ std::vector<char> may_be_wanted(const Sets& sets, const TurningModes& modes,
     for (const double growth : of.growth) at_least.push_back(growth - of.doubt);
     at_most.push_back(of.growth.maxCoeff() + of.doubt);
   }
-  n = std::clamp<Index>(n, 1, std::ssize(at_least));
+  const Index n = std::clamp<Index>(asked.least_stable, 1, std::ssize(at_least));
   std::ranges::nth_element(at_least, at_least.begin() + (n - 1), std::greater<>());
-  const double limit = at_least[static_cast<std::size_t>(n - 1)];
+  double limit = at_least[static_cast<std::size_t>(n - 1)];
+  if (asked.with_estimates) limit = std::min(limit, 0.0);
   std::size_t k = 0;
   for (const Index set : sets.sets()) {
     if (at_most[k++] < limit) continue;
@@ -535,12 +538,12 @@ void require_room(double step, Index m, Index N, Index columns)
 }
 
 std::vector<NearGroup> near_groups(const TurningModes& modes, double tolerance,
-                                   std::optional<Index> n_least_stable)
+                                   std::optional<GroupsAsked> asked)
 {
   Sets sets(modes.lambda);
   std::vector<char> wanted(static_cast<std::size_t>(modes.size()), 1);
   const SecondOrder order = unite_near(sets, modes);
-  if (n_least_stable) wanted = may_be_wanted(sets, modes, order, *n_least_stable);
+  if (asked) wanted = may_be_wanted(sets, modes, order, *asked);
   const auto is_wanted = [&](Index set) {
     return std::ranges::any_of(sets.states(set),
                                [&](Index i) { return wanted[static_cast<std::size_t>(i)] != 0; });
@@ -560,14 +563,19 @@ std::vector<NearGroup> near_groups(const TurningModes& modes, double tolerance,
         changed = true;
       } else {
         auto& group = std::get<NearGroup>(one);
+        if (!asked) group.X = {};  // of all motions they would fill the memory
         done[static_cast<std::size_t>(group.states.front())] = std::move(group);
       }
     }
   }
   std::vector<NearGroup> groups;
   for (const Index set : sets.sets()) {
-    if (!is_wanted(set)) continue;
-    groups.push_back(std::move(*done[static_cast<std::size_t>(set)]));
+    if (is_wanted(set))
+      groups.push_back(std::move(*done[static_cast<std::size_t>(set)]));
+    else if (asked->with_estimates)
+      groups.push_back(equations_alone(sets.states(set), sets, modes, order));
+    else
+      continue;
     groups.back().has_mirror = !sets.is_its_own_mirror(set);
   }
   return groups;

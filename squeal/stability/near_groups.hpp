@@ -12,10 +12,21 @@ namespace chladni::squeal {
 /// truncation of the harmonics of X.
 struct NearGroup {
   std::vector<Eigen::Index> states;
-  bool has_mirror;       ///< the complex conjugate states form another group, which is not listed
-  AngleHarmonics F;      ///< [g g x N] 1/s, each column a matrix
-  Eigen::Index highest;  ///< highest harmonic of X
-  double error;          ///< error estimated from the last harmonics, 1/s
+  bool has_mirror;        ///< the complex conjugate states form another group, which is not listed
+  AngleHarmonics F;       ///< [g g x N] 1/s, each column a matrix
+  Eigen::Index highest;   ///< highest harmonic of X
+  double error;           ///< error estimated from the last harmonics, 1/s
+  AngleHarmonics X = {};  ///< [m g x N], zero in the rows of the group; empty of an estimate
+  double doubt = 0.0;     ///< of an estimate by the second order of B, 1/s; 0: it is none
+};
+
+/// Which groups are solved.
+struct GroupsAsked {
+  /// Those alone that may hold one of so many motions that grow most, each by the second order of B
+  /// and its doubt.
+  Eigen::Index least_stable;
+  /// Beside them those that may grow, and the estimates of all others.
+  bool with_estimates = false;
 };
 
 /// Columns of X for which `near_groups` iterates at a time; a larger group has more.
@@ -36,11 +47,9 @@ void require_room(double step, Eigen::Index m, Eigen::Index N,
 /// with Anderson's acceleration (Journal of the ACM 12, 1965, pages 547 to 560) where it is slow.
 /// If it does not converge, or needs too many harmonics for the error `tolerance` (1/s), the two
 /// states responsible are put into one group.
-/// @param n_least_stable  without it each state is in a group or in the mirror image of one; with
-/// it
-///                      those groups alone are solved that may hold one of so many motions that
-///                      grow most, each by the second order of B and its doubt
+/// @param asked  without it, and with estimates, each state is in a group or in the mirror image of
+///               one
 std::vector<NearGroup> near_groups(const TurningModes& modes, double tolerance,
-                                   std::optional<Eigen::Index> n_least_stable = {});
+                                   std::optional<GroupsAsked> asked = {});
 
 }  // namespace chladni::squeal

@@ -10,6 +10,7 @@
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/motion/splitting.hpp"
 #include "squeal/numerics.hpp"
+#include "squeal/stability/eigenvalues.hpp"
 #include "squeal/stability/hill.hpp"
 
 namespace chladni::squeal {
@@ -183,6 +184,34 @@ RotationStability rotation_stability(const Disc& disc, const SquealOptions& opti
     if (result.growth[i - 1] < 0.0 && result.growth[i] > 0.0)
       result.critical_speed = root(growth, result.speeds[i - 1], result.speeds[i], speed_error);
   return result;
+}
+
+TurningEigenvalues turning_eigenvalues(const Disc& disc, const SquealOptions& options)
+{
+  const Hill hill(disc, options);
+  const SpeedRange& range = options.study.speeds;
+  const Eigen::VectorXd speeds = Eigen::VectorXd::LinSpaced(range.count, range.from, range.to);
+  std::vector<Eigen::MatrixXd> mean(static_cast<std::size_t>(range.count));
+  std::vector<FrozenDisc> frozen(mean.size());
+  for_each_index(range.count, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    mean[at] = hill.mean_matrix(speeds[i]);
+    frozen[at] = hill.worst_frozen(speeds[i], hill.nu(speeds[i]));
+  });
+  const auto at_speed = [&](double speed) {
+    Eigen::Index i = 0;
+    (speeds.array() - speed).abs().minCoeff(&i);
+    return static_cast<std::size_t>(i);
+  };
+  TurningEigenvalues found{
+      eigenvalues([&](double speed) { return mean[at_speed(speed)]; }, range),
+      eigenvalues([&](double speed) { return frozen[at_speed(speed)].A; }, range)};
+  found.mean.of = "mean matrix";
+  found.frozen.of = "worst frozen angle";
+  found.frozen.angles = speeds;
+  for (std::size_t i = 0; i < frozen.size(); ++i)
+    found.frozen.angles[static_cast<Eigen::Index>(i)] = frozen[i].angle;
+  return found;
 }
 
 Stability stability_of(const RotationStability& rotation)

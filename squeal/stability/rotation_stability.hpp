@@ -26,6 +26,15 @@ RotationGrowth rotation_growth(const Disc& disc, const SquealOptions& options, d
 RotationStability rotation_stability(const Disc& disc, const SquealOptions& options,
                                      unsigned n_threads = 0);
 
+/// Eigenvalues over `options.study.speeds` of a disc that is not axisymmetric: of A_0, the mean
+/// over the turn (see Hill::mean_matrix), and of the disc that stands at its worst angle. Neither
+/// is the motion of the turning disc: the first is near it where asymmetry is small and not in
+/// resonance with the turn, the second is what an analysis without the turn may show.
+struct TurningEigenvalues {
+  EigenvalueMap mean, frozen;
+};
+TurningEigenvalues turning_eigenvalues(const Disc& disc, const SquealOptions& options);
+
 /// Classifies the stability over the computed speeds.
 Stability stability_of(const RotationStability& rotation);
 

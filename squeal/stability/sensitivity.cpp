@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include "common/error.hpp"
@@ -16,8 +17,10 @@
 #include "squeal/brake/linear_contact.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/models/flexible_disc.hpp"
+#include "squeal/models/parameters.hpp"
 #include "squeal/numerics.hpp"
 #include "squeal/stability/eigenvalues.hpp"
+#include "squeal/stability/hill.hpp"
 #include "squeal/stability/stability_search.hpp"
 
 namespace chladni::squeal {
@@ -73,24 +76,29 @@ std::vector<Variable> variables_of(const Brake& brake)
   return variables;
 }
 
-/// dA/dp at the value zero, where A may not be defined below it:
-/// (-3 A(0) + 4 A(h) - A(2 h)) / (2 h).
-MatrixXd derivative_at_zero(const Variable& p, double speed)
+/// df/dp by central differences; at the value zero, below which f may not be defined,
+/// (-3 f(0) + 4 f(h) - f(2 h)) / (2 h).
+/// @param step  0: a part of the value
+template <class Function>
+std::invoke_result_t<Function, double> derivative_by(double value, double step, const Function& f)
 {
-  const MatrixXd A = p.A(0.0, speed);
+  if (value != 0.0 || step > 0.0) {
+    const double h = step > 0.0 ? step : relative_step * std::abs(value);
+    return (f(value + h) - f(value - h)) / (2.0 * h);
+  }
+  const auto at_zero = f(0.0);
   double h = 1e-6;
   constexpr double largest = 1e12;
-  while (h < largest && (p.A(h, speed) - A).norm() < relative_step * A.norm()) h *= 10.0;
-  return (4.0 * p.A(h, speed) - 3.0 * A - p.A(2.0 * h, speed)) / (2.0 * h);
+  while (h < largest && (f(h) - at_zero).norm() < relative_step * at_zero.norm()) h *= 10.0;
+  return (4.0 * f(h) - 3.0 * at_zero - f(2.0 * h)) / (2.0 * h);
 }
 
 /// dA/dp
 MatrixXd matrix_derivative(const Variable& p, double speed)
 {
   if (p.dA) return p.dA(speed);
-  if (p.value == 0.0 && p.step == 0.0) return derivative_at_zero(p, speed);
-  const double h = p.step > 0.0 ? p.step : relative_step * std::abs(p.value);
-  return (p.A(p.value + h, speed) - p.A(p.value - h, speed)) / (2.0 * h);
+  return derivative_by(p.value, p.step,
+                       [&](double value) -> MatrixXd { return p.A(value, speed); });
 }
 
 /// The least stable motion, then all others that grow by more than rounding, by falling growth.
@@ -133,10 +141,9 @@ std::optional<CriticalOscillation> critical_oscillation(const Brake& brake, cons
   return CriticalOscillation{*critical, change, by_speed};
 }
 
-void require_something(const std::optional<CriticalOscillation>& critical,
-                       const StudyOptions& options)
+void require_something(bool has_critical_speed, const StudyOptions& options)
 {
-  if (critical || options.gradients) return;
+  if (has_critical_speed || options.gradients) return;
   throw Error(
       fmt::format("gradients: there is no critical speed within [squeal] speeds, {:.6g} to {:.6g} "
                   "rad/s; take another range, or give gradients = {{ speed_rad_s = ... }} for "
@@ -160,10 +167,21 @@ double effect_of_usual_change(const Gradients& gradients, const GradientRow& row
   return row.growth.size() > 0 ? change * std::abs(row.growth[0]) : 0.0;
 }
 
+namespace {
+
+void sort_by_effect(Gradients& gradients)
+{
+  std::ranges::stable_sort(gradients.rows, std::ranges::greater(), [&](const GradientRow& row) {
+    return effect_of_usual_change(gradients, row);
+  });
+}
+
+}  // namespace
+
 Gradients gradients(const Brake& brake, const StudyOptions& options)
 {
   const auto critical = critical_oscillation(brake, options.speeds);
-  require_something(critical, options);
+  require_something(critical.has_value(), options);
   Gradients result;
   if (critical) {
     result.critical_speed = critical->at.speed;
@@ -188,9 +206,198 @@ Gradients gradients(const Brake& brake, const StudyOptions& options)
       row.growth[i] = motions[static_cast<std::size_t>(i)].of(dA).real();
     result.rows.push_back(std::move(row));
   }
-  std::ranges::stable_sort(result.rows, std::ranges::greater(), [&](const GradientRow& row) {
-    return effect_of_usual_change(result, row);
+  sort_by_effect(result);
+  return result;
+}
+
+namespace {
+
+/// Motions of a turning disc at one speed, and what they change by. With L(lambda) the operator
+/// A(phi) - speed d/dphi, d lambda = mean of l^T dL r.
+class TurningChange {
+ public:
+  TurningChange(const FlexibleDisc& brake, double speed, Index n)
+      : options_(&brake.options()),
+        speed_(speed),
+        hill_(brake.disc(), brake.options()),
+        motions_(hill_.motions(speed, n)),
+        n_disc_(brake.disc().n_modes())
+  {
+    if (motions_.lambda.size() > 0) return;
+    throw Error(
+        fmt::format("gradients: at {:.6g} rad/s the motion that grows most cannot be told from "
+                    "another one; change the speed a little",
+                    speed));
+  }
+
+  const Eigen::VectorXcd& lambda() const { return motions_.lambda; }
+
+  /// By a parameter of the pads.
+  Eigen::VectorXcd by(const ParameterValue& p) const
+  {
+    return form(derivative_by(p.value, 0.0, [&](double value) {
+      return images(with_parameter(*options_, p.parameter, value), speed_);
+    }));
+  }
+
+  /// By the speed: d/dphi r = (A r - lambda r) / speed.
+  Eigen::VectorXcd by_speed() const
+  {
+    const auto image = [&](double speed) { return images(*options_, speed); };
+    return form(derivative_by(speed_, 0.0, image)) -
+           (form(image(speed_)) - motions_.lambda) / speed_;
+  }
+
+  /// By the frequency of each mode, 1/s per Hz; [n_modes x k].
+  Eigen::MatrixXcd by_frequencies(const Eigen::VectorXd& omega) const
+  {
+    const TurningBrake brake = hill_.brake(*options_, speed_);
+    Eigen::MatrixXcd changes = Eigen::MatrixXcd::Zero(n_disc_, lambda().size());
+    const Eigen::VectorXd by_w = brake.scale().head(n_disc_).cwiseInverse();
+    for_each_angle([&](Index /*s*/, double phi, const MatrixXd& L, const MatrixXd& R) {
+      const Index n = L.rows() / 2;
+      // One mode of other frequency turns with the disc: it has not its symmetry.
+      for (int period = 0; period < motions_.nu; ++period) {
+        const double angle = phi + 2.0 * pi * period / motions_.nu;
+        changes += products(brake.in_modes(angle, L.middleRows(n, n_disc_)),
+                            brake.in_modes(angle, by_w.asDiagonal() * R.topRows(n_disc_)));
+      }
+    });
+    return -4.0 * pi / motions_.nu * omega.asDiagonal() * changes;
+  }
+
+ private:
+  /// A r at all angles with the matrix of other options or another speed, in coordinates that
+  /// depend smoothly on the pads. What does not change is the same to the last digit.
+  MatrixXd images(const SquealOptions& options, double speed) const
+  {
+    TurningBrake brake = hill_.brake(options, speed);
+    const MatrixXd turn = pad_basis(options).transpose() * pad_basis(*options_);
+    const auto turned = [](const MatrixXd& of_pads, MatrixXd X) {
+      const Index n = X.rows() / 2, m = of_pads.rows();
+      for (const Index end : {n, 2 * n})
+        X.middleRows(end - m, m) = (of_pads * X.middleRows(end - m, m)).eval();
+      return X;
+    };
+    MatrixXd all(motions_.right.front().rows(), 0);
+    for_each_angle([&](Index s, double phi, const MatrixXd& /*L*/, const MatrixXd& R) {
+      if (s == 0) all.resize(R.rows(), R.cols() * motions_.right.front().cols());
+      all.middleCols(s * R.cols(), R.cols()) =
+          turned(turn.transpose(), brake.times(phi, turned(turn, R)));
+    });
+    return all;
+  }
+
+  /// Mean of l^T times such images.
+  Eigen::VectorXcd form(const MatrixXd& images) const
+  {
+    Eigen::VectorXcd sum = Eigen::VectorXcd::Zero(lambda().size());
+    for_each_angle([&](Index s, double /*phi*/, const MatrixXd& L, const MatrixXd& R) {
+      const MatrixXd image = images.middleCols(s * R.cols(), R.cols());
+      sum += products(L, image).colwise().sum().transpose();
+    });
+    return sum;
+  }
+
+  /// Calls f(s, phi, L, R) with the vectors of all motions, real and imaginary parts side by side,
+  /// L over the number of angles.
+  template <class Function>
+  void for_each_angle(const Function& f) const
+  {
+    const Index k = lambda().size(), m = motions_.right.front().rows();
+    const Index N = motions_.right.front().cols();
+    MatrixXd L(m, 2 * k), R(m, 2 * k);
+    for (Index s = 0; s < N; ++s) {
+      for (Index j = 0; j < k; ++j) {
+        const auto at = static_cast<std::size_t>(j);
+        L.col(j) = motions_.left[at].col(s).real() / double(N);
+        L.col(k + j) = motions_.left[at].col(s).imag() / double(N);
+        R.col(j) = motions_.right[at].col(s).real();
+        R.col(k + j) = motions_.right[at].col(s).imag();
+      }
+      f(s, 2.0 * pi * double(s) / double(N * motions_.nu), L, R);
+    }
+  }
+
+  /// Complex products of each pair of columns, entry by entry.
+  static Eigen::MatrixXcd products(const MatrixXd& L, const MatrixXd& R)
+  {
+    const Index k = L.cols() / 2;
+    Eigen::MatrixXcd product(L.rows(), k);
+    const auto L_re = L.leftCols(k).array(), L_im = L.rightCols(k).array();
+    const auto R_re = R.leftCols(k).array(), R_im = R.rightCols(k).array();
+    product.real() = (L_re * R_re - L_im * R_im).matrix();
+    product.imag() = (L_re * R_im + L_im * R_re).matrix();
+    return product;
+  }
+
+  const SquealOptions* options_;
+  double speed_;
+  Hill hill_;
+  FloquetMotions motions_;
+  Index n_disc_;
+};
+
+/// Growth rates by all numbers, in the order of `turning_rows`.
+MatrixXd growth_by_all(const FlexibleDisc& brake, const TurningChange& change)
+{
+  const std::vector<ParameterValue> parameters = brake.parameters();
+  const Index n = std::ssize(parameters), n_modes = brake.disc().n_modes();
+  MatrixXd growth(n + n_modes, change.lambda().size());
+  for_each_index(static_cast<int>(n), [&](int i) {
+    growth.row(i) = change.by(parameters[static_cast<std::size_t>(i)]).real().transpose();
   });
+  growth.bottomRows(n_modes) = change.by_frequencies(brake.disc().omega).real();
+  return growth;
+}
+
+std::vector<GradientRow> turning_rows(const FlexibleDisc& brake)
+{
+  std::vector<GradientRow> rows;
+  for (const auto& [parameter, value] : brake.parameters()) {
+    rows.push_back({.key = key_of(parameter),
+                    .unit = std::string(find_parameter(parameter.name)->unit),
+                    .value = value});
+  }
+  for (Index i = 0; i < brake.disc().n_modes(); ++i) {
+    const double f_Hz = brake.disc().omega[i] / (2.0 * pi);
+    const int number = brake.disc().mode_numbers[static_cast<std::size_t>(i)];
+    rows.push_back({.key = fmt::format("frequency of mode {} at {:.6g} Hz", number, f_Hz),
+                    .unit = "Hz",
+                    .value = f_Hz});
+  }
+  return rows;
+}
+
+}  // namespace
+
+Gradients turning_gradients(const FlexibleDisc& brake, const StudyOptions& options,
+                            const std::optional<CriticalSpeed>& critical)
+{
+  constexpr Index most_motions = 5;
+  require_something(critical.has_value(), options);
+  Gradients result;
+  result.rows = turning_rows(brake);
+  const auto each_row = [&](const auto& f) {
+    for (std::size_t i = 0; i < result.rows.size(); ++i) f(result.rows[i], static_cast<Index>(i));
+  };
+  if (critical) {
+    result.critical_speed = critical->speed;
+    result.critical_frequency_Hz = critical->frequency_Hz;
+    const TurningChange change(brake, critical->speed, 1);
+    const MatrixXd growth = growth_by_all(brake, change);
+    const double by_speed = change.by_speed()[0].real();
+    each_row([&](GradientRow& row, Index i) { row.critical_speed = -growth(i, 0) / by_speed; });
+  }
+  if (options.gradients) {
+    result.speed = options.gradients->speed;
+    const TurningChange change(brake, *result.speed, most_motions);
+    for (const Complex& lambda : change.lambda())
+      result.motions.push_back({lambda.real(), std::abs(lambda.imag()) / (2.0 * pi)});
+    const MatrixXd growth = growth_by_all(brake, change);
+    each_row([&](GradientRow& row, Index i) { row.growth = growth.row(i).transpose(); });
+  }
+  sort_by_effect(result);
   return result;
 }
 

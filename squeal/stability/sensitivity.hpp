@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake_options.hpp"
 #include "squeal/models/brake.hpp"
@@ -21,6 +23,14 @@ namespace chladni::squeal {
 /// @throws chladni::Error when there is neither a critical speed in the range nor a speed of growth
 ///         rates, and for a disc that is not axisymmetric.
 Gradients gradients(const Brake& brake, const StudyOptions& options);
+
+/// The same of a disc that is not axisymmetric, by each parameter and the frequency of each mode:
+/// d lambda / dp is the mean of l^T (dA/dp) r over the turn, with the motion r(phi) and its left
+/// vector. Up to five motions; see Hill::motions.
+/// @param critical  its critical speed, absent where there is none
+/// @throws chladni::Error as `gradients`, and as Hill's method.
+Gradients turning_gradients(const FlexibleDisc& brake, const StudyOptions& options,
+                            const std::optional<CriticalSpeed>& critical);
 
 /// Influence of the modes on the critical speed: its values with the lowest 2, 8, 16 and all modes,
 /// and its change and the growth rate at it when one mode or pair of modes is left out.

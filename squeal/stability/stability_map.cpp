@@ -33,14 +33,19 @@ void fill_column(StabilityMap& map, const Brake& brake, MapParameter parameter, 
 
 }  // namespace
 
+StabilityMap empty_map(const MapCase& range, const SpeedRange& speeds)
+{
+  return {.parameter = key_of(range.parameter),
+          .values = Eigen::VectorXd::LinSpaced(range.count, range.from, range.to),
+          .speeds = Eigen::VectorXd::LinSpaced(speeds.count, speeds.from, speeds.to),
+          .growth = Eigen::MatrixXd(range.count, speeds.count),
+          .frequency_Hz = Eigen::MatrixXd(range.count, speeds.count)};
+}
+
 StabilityMap stability_map(const Brake& brake, const MapCase& range, const SpeedRange& speeds,
                            unsigned n_threads)
 {
-  StabilityMap map{.parameter = key_of(range.parameter),
-                   .values = Eigen::VectorXd::LinSpaced(range.count, range.from, range.to),
-                   .speeds = Eigen::VectorXd::LinSpaced(speeds.count, speeds.from, speeds.to),
-                   .growth = Eigen::MatrixXd(range.count, speeds.count),
-                   .frequency_Hz = Eigen::MatrixXd(range.count, speeds.count)};
+  StabilityMap map = empty_map(range, speeds);
   for_each_index(
       speeds.count, [&](int j) { fill_column(map, brake, range.parameter, j); }, n_threads);
   return map;

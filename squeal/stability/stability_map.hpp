@@ -13,6 +13,9 @@
 
 namespace chladni::squeal {
 
+/// The values and speeds of a map, and room for what it tells there.
+StabilityMap empty_map(const MapCase& range, const SpeedRange& speeds);
+
 /// Least stable eigenvalues of the brake over the speeds and the parameter of `range`.
 /// @param n_threads  0: as many as processors; the result does not depend on it
 StabilityMap stability_map(const Brake& brake, const MapCase& range, const SpeedRange& speeds,

@@ -423,20 +423,20 @@ CriticalValue critical_value(const Brake& brake, const CriticalCase& search)
   const StateMatrixOf A = [&](double value) {
     return brake.with(search.parameter, value)->state_matrix(search.speed);
   };
-  CriticalValue result{.parameter = key_of(search.parameter),
-                       .speed = search.speed,
-                       .value = {},
-                       .frequency_Hz = 0.0,
-                       .n_newton_steps = 0,
-                       .profile = stability_over(
-                           A, {.from = search.from, .to = search.to, .count = values_scanned})};
-  std::optional<StabilityPoint> limit = first_loss(*result.profile);
-  if (!limit) limit = first_regain(*result.profile);
-  if (!limit) return result;
-  result.value = limit->value;
-  result.frequency_Hz = limit->frequency_Hz;
-  result.n_newton_steps = limit->n_newton_steps;
-  return result;
+  return critical_value(
+      search, stability_over(A, {.from = search.from, .to = search.to, .count = values_scanned}));
+}
+
+CriticalValue critical_value(const CriticalCase& search, StabilityProfile profile)
+{
+  std::optional<StabilityPoint> limit = first_loss(profile);
+  if (!limit) limit = first_regain(profile);
+  return {.parameter = key_of(search.parameter),
+          .speed = search.speed,
+          .value = limit ? std::optional(limit->value) : std::nullopt,
+          .frequency_Hz = limit ? limit->frequency_Hz : 0.0,
+          .n_newton_steps = limit ? limit->n_newton_steps : 0,
+          .profile = std::move(profile)};
 }
 
 }  // namespace chladni::squeal

@@ -44,6 +44,9 @@ std::optional<HopfPoint> hopf_point(const StateMatrixOf& A, double value, double
 ///         if neither is in the range
 CriticalValue critical_value(const Brake& brake, const CriticalCase& search);
 
+/// What a search found, from its profile.
+CriticalValue critical_value(const CriticalCase& search, StabilityProfile profile);
+
 /// A range of a parameter, of which `count` equally spaced values are sampled first.
 struct SearchRange {
   double from;

@@ -160,20 +160,65 @@ Eigen::MatrixXd TurningBrake::turned(const Eigen::MatrixXd& M, double phi) const
   return turned_rows(d_, turned_rows(d_, M, phi).transpose(), phi).transpose();
 }
 
-Eigen::MatrixXd TurningBrake::at(double phi)
+void TurningBrake::place_points(double phi)
 {
-  const Eigen::Index n_disc = R_.rows(), n = w_.size(), m = n - n_disc;
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), C = K, D = K;
-  K.topLeftCorner(n_disc, n_disc) = turned(K_, phi);
-  C.topLeftCorner(n_disc, n_disc) = turned(C_, phi);
-  K.diagonal().tail(m) = pads_.omega.cwiseAbs2();
-  if (m > 0) C.bottomRightCorner(m, m) = pads_.C;
   for (std::size_t i = 0; i < pads_.points.size(); ++i) {
     const PointPair& point = pads_.points[i];
     const Eigen::MatrixXd at_point = turned_rows(d_, R_.transpose() * shapes_.at(point, phi), phi);
     const PairShapes S = pair_shapes(at_point, pads_, point);
     contact_.S.middleCols(S.cols() * static_cast<Eigen::Index>(i), S.cols()) = S;
   }
+}
+
+Eigen::MatrixXd TurningBrake::convected(const Eigen::MatrixXd& z) const
+{
+  Eigen::MatrixXd rate = Eigen::MatrixXd::Zero(z.rows(), z.cols());
+  for (Eigen::Index i = 0; i < R_.rows(); ++i) {
+    const int d = d_[static_cast<std::size_t>(i)];
+    if (d == 0) continue;
+    rate.row(i) = -speed_ * d * z.row(i + 1);
+    rate.row(i + 1) = speed_ * d * z.row(i);
+    ++i;
+  }
+  return rate;
+}
+
+Eigen::MatrixXd TurningBrake::in_modes(double phi, const Eigen::MatrixXd& z) const
+{
+  return R_ * turned_rows(d_, z, -phi);
+}
+
+Eigen::MatrixXd TurningBrake::times(double phi, const Eigen::MatrixXd& X)
+{
+  place_points(phi);
+  const Eigen::Index n_disc = R_.rows(), n = w_.size(), m = n - n_disc;
+  const Eigen::MatrixXd v = X.bottomRows(n), a = w_.cwiseInverse().asDiagonal() * X.topRows(n);
+  Eigen::MatrixXd AX(2 * n, X.cols());
+  AX.topRows(n) = convected(X.topRows(n)) + w_.asDiagonal() * v;
+  auto force = AX.bottomRows(n);
+  force = convected(v);
+  force.topRows(n_disc) -= turned_rows(
+      d_,
+      K_ * turned_rows(d_, a.topRows(n_disc), -phi) + C_ * turned_rows(d_, v.topRows(n_disc), -phi),
+      phi);
+  if (m > 0) {
+    force.bottomRows(m) -= pads_.omega.cwiseAbs2().asDiagonal() * a.bottomRows(m);
+    force.bottomRows(m) -= pads_.C * v.bottomRows(m);
+  }
+  const Eigen::MatrixXd& S = contact_.S;
+  force += S * (contact_.D_a * (S.transpose() * a) + contact_.D_p * (S.transpose() * v));
+  return AX;
+}
+
+Eigen::MatrixXd TurningBrake::at(double phi)
+{
+  place_points(phi);
+  const Eigen::Index n_disc = R_.rows(), n = w_.size(), m = n - n_disc;
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), C = K, D = K;
+  K.topLeftCorner(n_disc, n_disc) = turned(K_, phi);
+  C.topLeftCorner(n_disc, n_disc) = turned(C_, phi);
+  K.diagonal().tail(m) = pads_.omega.cwiseAbs2();
+  if (m > 0) C.bottomRightCorner(m, m) = pads_.C;
   K.noalias() -= contact_.S * (contact_.D_a * contact_.S.transpose());
   C.noalias() -= contact_.S * (contact_.D_p * contact_.S.transpose());
   for (Eigen::Index i = 0; i < n_disc; ++i) {
@@ -325,6 +370,24 @@ std::vector<Index> pairs_of(const Eigen::VectorXcd& lambda)
 }
 
 }  // namespace
+
+TurningModes adjoint_of(const TurningModes& modes)
+{
+  // conj(P) = P s with s = -1 for the second of a pair, and B is real.
+  const Index m = modes.size(), N = modes.B.cols();
+  Eigen::VectorXd s = Eigen::VectorXd::Ones(m);
+  for (const Index i : pairs_of(modes.lambda)) s[i + 1] = -1.0;
+  TurningModes adjoint = modes;
+  for (Index k = 0; k < N; ++k) {
+    const Eigen::MatrixXd B = s.asDiagonal() * modes.at((N - k) % N).transpose() * s.asDiagonal();
+    adjoint.B.col(k) = B.reshaped();
+  }
+  for (Index k = 0; k < modes.highest; ++k) {
+    const Eigen::MatrixXcd B = s.asDiagonal() * modes.harmonic(k + 1).adjoint() * s.asDiagonal();
+    adjoint.B_k.col(k) = B.reshaped();
+  }
+  return adjoint;
+}
 
 Eigen::MatrixXcd from_real_pairs(const Eigen::VectorXcd& lambda, Eigen::MatrixXcd r)
 {

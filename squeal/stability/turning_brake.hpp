@@ -38,7 +38,20 @@ class TurningBrake {
   /// @return [2 n x 2 n] 1/s, n = n_modes + modes of the pads
   Eigen::MatrixXd at(double phi);
 
+  /// A(phi) X without A.
+  /// @param X  [2 n x k]
+  Eigen::MatrixXd times(double phi, const Eigen::MatrixXd& X);
+
+  /// Displacements of the disc's modes, q, of states when the disc has rotated by `phi` (rad).
+  /// @param z  [n_modes x k] coordinates
+  Eigen::MatrixXd in_modes(double phi, const Eigen::MatrixXd& z) const;
+
+  const Eigen::VectorXd& scale() const { return w_; }  ///< w of x = (diag(w) z, p), rad/s
+
  private:
+  void place_points(double phi);
+  /// Of the disc's coordinates, by -speed; zero for others.
+  Eigen::MatrixXd convected(const Eigen::MatrixXd& z) const;
   Eigen::MatrixXd turned(const Eigen::MatrixXd& M, double phi) const;
 
   double speed_;
@@ -128,6 +141,10 @@ struct TurningModes {
     return {B_k.col(k - 1).data(), size(), size()};
   }
 };
+
+/// The equations of the left vectors, backwards in phi: z' = (diag(lambda) + P B(-nu phi)^~ P^*) z
+/// with z = V^T l and l^T x constant, where ~ is the transposition in these coordinates.
+TurningModes adjoint_of(const TurningModes& modes);
 
 /// The products P r and P^* y.
 Eigen::MatrixXcd from_real_pairs(const Eigen::VectorXcd& lambda, Eigen::MatrixXcd r);

@@ -134,32 +134,44 @@ namespace {
 
 void find_eigenvalues(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
 {
+  const FlexibleDisc* body = study.brake.body();
+  if (!study.brake.is_autonomous()) {
+    TurningEigenvalues found = turning_eigenvalues(body->disc(), body->options());
+    results.eigenvalues = std::move(found.mean);
+    results.frozen_eigenvalues = std::move(found.frozen);
+    return;
+  }
   EigenvalueMap map = eigenvalues(state_matrix_at(study.brake), study.options.speeds);
-  if (const FlexibleDisc* body = study.brake.body()) {
+  if (body) {
     map.shapes = mode_shapes(body->inertial(), body->options(), map);
     map.mode_numbers = body->disc().mode_numbers;
   }
   results.eigenvalues = std::move(map);
 }
 
-/// Of a disc that is not axisymmetric by Hill's method.
-StabilityProfile speed_stability(const Study& study)
+/// Over the speed, of a disc that is not axisymmetric.
+StabilityTable turning_table_over_speed(const Study& study)
 {
   const SpeedRange& speeds = study.options.speeds;
-  if (study.brake.is_autonomous())
-    return stability_over_speed(state_matrix_at(study.brake), speeds);
-  return profile_of(study.turning.table(
+  return study.turning.table(
       *study.brake.body(),
-      {.over = {}, .from = speeds.from, .to = speeds.to, .count = speeds.count, .band = {}}));
+      {.over = {}, .from = speeds.from, .to = speeds.to, .count = speeds.count, .band = {}});
 }
 
 void find_critical_speed(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
 {
-  results.speed_stability = speed_stability(study);
-  results.critical_speed = critical_speed(*results.speed_stability);
   const FlexibleDisc* body = study.brake.body();
-  if (results.critical_speed && body && body->is_autonomous())
-    results.critical_speed->budget = error_budget(*body, *results.critical_speed);
+  if (study.brake.is_autonomous()) {
+    results.speed_stability =
+        stability_over_speed(state_matrix_at(study.brake), study.options.speeds);
+    results.critical_speed = critical_speed(*results.speed_stability);
+    if (results.critical_speed && body)
+      results.critical_speed->budget = error_budget(*body, *results.critical_speed);
+  } else {
+    const StabilityTable table = turning_table_over_speed(study);
+    results.speed_stability = profile_of(table);
+    results.critical_speed = turning_critical_speed(*body, table);
+  }
   results.searched_critical_speed = true;
 }
 
@@ -174,14 +186,28 @@ void find_unstable_modes(const Study& study, SquealResults& results, const Keepi
 void find_critical_values(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
 {
   std::vector<CriticalValue> values;
-  for (const CriticalCase& search : study.options.critical)
-    values.push_back(critical_value(study.brake, search));
+  for (const CriticalCase& search : study.options.critical) {
+    if (study.brake.is_autonomous()) {
+      values.push_back(critical_value(study.brake, search));
+      continue;
+    }
+    constexpr int n_values = 33;
+    values.push_back(critical_value(
+        search, profile_of(study.turning.table(*study.brake.body(), {.over = search.parameter,
+                                                                     .from = search.from,
+                                                                     .to = search.to,
+                                                                     .count = n_values,
+                                                                     .speed = search.speed}))));
+  }
   results.critical_values = std::move(values);
 }
 
 void find_map(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
 {
-  results.map = stability_map(study.brake, study.options.map.value(), study.options.speeds);
+  const MapCase& range = study.options.map.value();
+  results.map = study.brake.is_autonomous()
+                    ? stability_map(study.brake, range, study.options.speeds)
+                    : turning_map(*study.brake.body(), range, study.options.speeds);
 }
 
 void find_mode_sensitivity(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
@@ -192,7 +218,13 @@ void find_mode_sensitivity(const Study& study, SquealResults& results, const Kee
 
 void find_gradients(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
 {
-  results.gradients = gradients(study.brake, study.options);
+  if (study.brake.is_autonomous()) {
+    results.gradients = gradients(study.brake, study.options);
+    return;
+  }
+  const FlexibleDisc& body = *study.brake.body();
+  results.gradients = turning_gradients(
+      body, study.options, turning_critical_speed(body, turning_table_over_speed(study)));
 }
 
 void find_rotation_stability(const Study& study, SquealResults& results, const Keeping& /*keeping*/)

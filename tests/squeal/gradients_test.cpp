@@ -9,14 +9,20 @@
 #include <memory>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "common/error.hpp"
 #include "squeal/brake/linear_contact.hpp"
+#include "squeal/models/parameters.hpp"
 #include "squeal/models/rigid_disc.hpp"
 #include "squeal/models/sliding_masses.hpp"
 #include "squeal/results/squeal_results.hpp"
 #include "squeal/stability/eigenvalues.hpp"
+#include "squeal/stability/hill.hpp"
+#include "squeal/stability/hill_table.hpp"
 #include "tests/common/files/scratch_folder.hpp"
 #include "tests/references/squeal/analytic_body.hpp"
+#include "tests/squeal/turning_discs.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -254,6 +260,105 @@ TEST(Gradients, WithoutACriticalSpeedNeedASpeed)
   const Gradients found = gradients(brake, options.study);
   EXPECT_FALSE(found.critical_speed);
   EXPECT_EQ(found.motions.size(), 1u);  // stable: the least stable one alone
+}
+
+/// The critical speed of a disc that is not axisymmetric, near a known one, by the secant rule.
+double turning_critical_speed_near(const FlexibleDisc& brake, double known)
+{
+  const Hill hill(brake.disc(), brake.options(), 1e-9);
+  const auto growth = [&](double speed) { return hill.exponents(speed).lambda[0].real(); };
+  double last = known, at = known * (1.0 + 1e-4), f_last = growth(last), f_at = growth(at);
+  for (int i = 0; i < 6 && std::abs(at - last) > 1e-10 * at; ++i) {
+    const double next = at - f_at * (at - last) / (f_at - f_last);
+    last = at;
+    f_last = f_at;
+    at = next;
+    f_at = growth(at);
+  }
+  return at;
+}
+
+TEST(Gradients, OfADiscThatIsNotAxisymmetricAreCentralDifferences)
+{
+  SquealOptions options = reference_options();
+  options.friction = {.kinetic = 0.5, .rise = 0.1, .decay_speed = 2.0, .regularisation = 1e-2};
+  options.pads[0].body = PadBody{.mass = 0.4, .height = 0.01, .axial = Suspension{4e6, 20.0}};
+  options.study.speeds = {.from = 2.0 * pi, .to = 14.0 * pi, .count = 20};
+  options.study.gradients = GradientCase{.speed = 13.0 * pi};
+  int n_critical = 0;
+  for (const Disc& disc : {mistuned_disc(), disc_with_vanes()}) {
+    const FlexibleDisc brake(disc, options);
+    ASSERT_FALSE(brake.is_autonomous());
+    const auto critical = turning_critical_speed(
+        brake, turning_table(brake, {.over = {}, .from = 2.0 * pi, .to = 14.0 * pi, .count = 20}));
+    ASSERT_TRUE(critical);
+    const double speed = turning_critical_speed_near(brake, critical->speed);
+    EXPECT_NEAR(critical->speed, speed, critical->budget.sum());
+    const Gradients found =
+        turning_gradients(brake, options.study, CriticalSpeed{speed, critical->frequency_Hz});
+    ASSERT_GE(found.motions.size(), 1u);
+    EXPECT_GT(found.motions[0].growth, 0.0);
+    const auto expect_row = [&](const std::string& key, double value, const auto& with) {
+      const auto row = std::ranges::find(found.rows, key, &GradientRow::key);
+      ASSERT_NE(row, found.rows.end()) << key;
+      const auto growth_of = [&](double x) {
+        const FlexibleDisc changed = with(x);
+        const Hill hill(changed.disc(), changed.options(), 1e-9);
+        return hill.exponents(13.0 * pi).lambda[0].real();
+      };
+      const Difference growth = difference(growth_of, value);
+      // Of the exponents: 1e-7 1/s over a step of 1e-4 of the value.
+      EXPECT_NEAR(row->growth[0], growth.value,
+                  1e-4 * std::abs(growth.value) + growth.doubt + 1e-3 / value)
+          << key;
+      if (key != "friction.kinetic" && key != "pads[1].stiffness") return;
+      const Difference by_value =
+          difference([&](double x) { return turning_critical_speed_near(with(x), speed); }, value);
+      EXPECT_NEAR(*row->critical_speed, by_value.value,
+                  1e-4 * std::abs(by_value.value) + by_value.doubt + 1e-3 / value)
+          << key;
+      ++n_critical;
+    };
+    for (const auto& [parameter, value] : brake.parameters()) {
+      if (value == 0.0) continue;
+      expect_row(key_of(parameter), value, [&, parameter = parameter](double x) {
+        return FlexibleDisc(disc, with_parameter(options, parameter, x));
+      });
+    }
+    for (const Eigen::Index i : {Eigen::Index{1}, Eigen::Index{2}}) {
+      const double f_Hz = disc.omega[i] / (2.0 * pi);
+      expect_row(fmt::format("frequency of mode {} at {:.6g} Hz", i + 1, f_Hz), f_Hz,
+                 [&](double x) {
+                   Disc changed = disc;
+                   changed.omega[i] = 2.0 * pi * x;
+                   return FlexibleDisc(changed, options);
+                 });
+    }
+  }
+  EXPECT_GE(n_critical, 2);
+}
+
+TEST(Gradients, OfAnAxisymmetricDiscAreThoseOfItsEigenvalues)
+{
+  SquealOptions options = reference_options();
+  options.study.speeds = {.from = 2.0 * pi, .to = 14.0 * pi, .count = 20};
+  options.study.gradients = GradientCase{.speed = 6.0 * pi};
+  const FlexibleDisc brake(disc_of({turned_by(kirchhoff_2(), 0.4), kirchhoff_3()}), options);
+  const Gradients expected = gradients(brake, options.study);
+  const Gradients found =
+      turning_gradients(brake, options.study,
+                        CriticalSpeed{*expected.critical_speed, *expected.critical_frequency_Hz});
+  EXPECT_EQ(found.motions.size(), expected.motions.size());
+  for (const GradientRow& row : expected.rows) {
+    if (row.unit == "Hz") continue;  // of pairs there, of modes here
+    const auto same = std::ranges::find(found.rows, row.key, &GradientRow::key);
+    ASSERT_NE(same, found.rows.end()) << row.key;
+    // The place of the one pad changes nothing: its derivatives are rounding.
+    EXPECT_NEAR(same->growth[0], row.growth[0], 1e-6 * std::abs(row.growth[0]) + 1e-7) << row.key;
+    EXPECT_NEAR(*same->critical_speed, *row.critical_speed,
+                1e-6 * std::abs(*row.critical_speed) + 1e-7)
+        << row.key;
+  }
 }
 
 TEST(Gradients, ComeBackFromTheirFile)

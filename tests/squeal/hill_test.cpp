@@ -254,6 +254,77 @@ TEST(Hill, KnowsWhereFrozenAnglesMislead)
   EXPECT_NEAR(frozen, largest, 0.03 * largest);
 }
 
+TEST(Hill, EstimatesThoseMotionsAloneThatCannotGrow)
+{
+  Disc damped = mistuned_disc();
+  damped.C = Eigen::Vector4d(1.0, 1.0, 60.0, 60.0).asDiagonal();
+  int n_estimates = 0;
+  for (const Disc& disc : {damped, mistuned_disc(), disc_with_vanes()}) {
+    const Hill hill(disc, reference_options());
+    for (const double speed : {2.0 * pi, 14.0 * pi}) {
+      const HillExponents all = hill.exponents(speed), some = hill.followable(speed);
+      ASSERT_EQ(some.lambda.size(), all.lambda.size());
+      for (Eigen::Index j = 0; j < all.lambda.size(); ++j) {
+        // Half of the second order leaves room for the third and those beyond it.
+        EXPECT_NEAR(some.lambda[j].real(), all.lambda[j].real(),
+                    some.doubt[j] + some.error + all.error + 1e-9);
+        n_estimates += some.doubt[j] > 0.0 ? 1 : 0;
+        if (some.doubt[j] > 0.0) {
+          EXPECT_LT(some.lambda[j].real() + some.doubt[j], 0.0);
+        }
+      }
+    }
+  }
+  EXPECT_GT(n_estimates, 0);
+}
+
+TEST(TurningBrake, MultipliesByItsMatrix)
+{
+  SquealOptions options = reference_options();
+  options.pads[0].body = PadBody{.mass = 0.4, .height = 0.01, .axial = Suspension{4e6, 20.0}};
+  const Disc disc = disc_with_damping_on_one_side();
+  TurningBrake brake(disc, nearest_pairs(disc), options, 6.0 * pi);
+  for (const double phi : {0.0, 0.7, 2.9}) {
+    const Eigen::MatrixXd A = brake.at(phi), X = Eigen::MatrixXd::Random(A.rows(), 3);
+    EXPECT_LT((brake.times(phi, X) - A * X).norm(), 1e-12 * (A * X).norm());
+  }
+}
+
+TEST(Hill, FindsMotionsAndLeftVectorsThatSolveTheEquations)
+{
+  // Omega dr/dphi = A r - lambda r, -Omega dl/dphi = A^T l - lambda l, differentiated by Fourier.
+  for (const Disc& disc : {mistuned_disc(), disc_with_vanes(), split_disc()}) {
+    const Hill hill(disc, reference_options(), 1e-9);
+    const double speed = 9.0 * pi;
+    const FloquetMotions motions = hill.motions(speed, 3);
+    const double growth = hill.exponents(speed).lambda[0].real();
+    ASSERT_GE(motions.lambda.size(), 1);
+    EXPECT_NEAR(motions.lambda[0].real(), growth, 1e-7);
+    TurningBrake brake = hill.brake(reference_options(), speed);
+    for (std::size_t j = 0; j < motions.right.size(); ++j) {
+      const Complex lambda = motions.lambda[Eigen::Index(j)];
+      const Eigen::Index N = motions.right[j].cols();
+      const auto rates = [&](const Eigen::MatrixXcd& x) -> Eigen::MatrixXcd {
+        AngleHarmonics c = harmonics_of(x);
+        for (Eigen::Index k = 0; k < N; ++k)
+          c.col(k) *= Complex(0.0, motions.step * double(order_of(k, N)));
+        return samples_of(c);
+      };
+      const Eigen::MatrixXcd &r = motions.right[j], &l = motions.left[j];
+      const Eigen::MatrixXcd dr = rates(r), dl = rates(l);
+      Complex product = 0.0;
+      for (Eigen::Index s = 0; s < N; ++s) {
+        const Eigen::MatrixXd A = brake.at(2.0 * pi * double(s) / double(N * motions.nu));
+        EXPECT_LT((A * r.col(s) - lambda * r.col(s) - dr.col(s)).norm(), 1e-4 * r.col(s).norm());
+        EXPECT_LT((A.transpose() * l.col(s) - lambda * l.col(s) + dl.col(s)).norm(),
+                  1e-4 * l.col(s).norm());
+        product += (l.col(s).transpose() * r.col(s)).value() / double(N);
+      }
+      EXPECT_LT(std::abs(product - 1.0), 1e-12);
+    }
+  }
+}
+
 TEST(NearestPairs, AreOrthogonalAndOfOneHarmonic)
 {
   const TurningCoordinates pairs = nearest_pairs(disc_with_half_a_pair());

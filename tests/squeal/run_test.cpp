@@ -73,14 +73,17 @@ TEST(Run, FindsALimitCycleWithoutATransient)
   EXPECT_FALSE(results.transient || results.limit_cycle || results.limit_cycle_branch);
 }
 
-TEST(Run, NeedsAnAxisymmetricDiscForEigenvaluesOnly)
+TEST(Run, NeedsAnAxisymmetricDiscForLimitCyclesOnly)
 {
   auto body = analytic_body({kirchhoff_3()});
   body.omega[1] *= 1.1;
   const Disc disc = disc_on_ring(body, "track", {});
   SquealOptions options = reference_options();
-  options.study.analyses = {"eigenvalues"};
-  EXPECT_THROW(run(FlexibleDisc(disc, options), options.study), Error);
+  options.study.limit_cycle_direct = DirectCase{.speed = 6.0 * pi};
+  for (const char* analysis : {"limit-cycle-direct", "limit-cycle-branch", "mode-sensitivity"}) {
+    options.study.analyses = {analysis};
+    EXPECT_THROW(run(FlexibleDisc(disc, options), options.study), Error) << analysis;
+  }
   options.study.analyses = {"transient"};
   options.study.transient =
       TransientCase{.speed = 6.0 * pi, .duration = 0.1, .initial_pad_displacement = 1e-6};

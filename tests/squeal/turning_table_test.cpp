@@ -154,6 +154,92 @@ TEST(TurningTables, AreComputedOnceForTheAnalysesOfARun)
   EXPECT_GT(turning.n_exponents(), n_exponents + 32);
 }
 
+TEST(TurningTable, GivesCriticalValuesAndMapsThatAreThoseOfFloquet)
+{
+  // A little damping, so that there is a friction below which the disc is stable.
+  Disc disc = mistuned_disc();
+  disc.C = 2.0 * Eigen::Matrix4d::Identity();
+  const FlexibleDisc brake(disc, reference_options());
+  StudyOptions options = reference_options().study;
+  options.critical = {{.parameter = MapParameter::friction, .from = 0.05, .to = 1.0}};
+  options.critical[0].speed = 12.0 * pi;
+  options.map = MapCase{.parameter = MapParameter::friction, .from = 0.2, .to = 0.8, .count = 2};
+  options.speeds = {.from = 4.0 * pi, .to = 12.0 * pi, .count = 2};
+  TurningTables turning;
+  const Study study{brake, options, turning};
+  SquealResults results;
+  perform("critical-values", study, results);
+  perform("stability-map", study, results);
+  const auto growth = [&](double friction, double speed) {
+    return rotation_growth(disc, with_parameter(brake.options(), MapParameter::friction, friction),
+                           speed)
+        .growth;
+  };
+  ASSERT_EQ(results.critical_values.size(), 1u);
+  const CriticalValue& critical = results.critical_values[0];
+  ASSERT_TRUE(critical.value);
+  EXPECT_EQ(critical.profile->method, "hill");
+  EXPECT_LT(growth(0.999 * *critical.value, 12.0 * pi), 0.0);
+  EXPECT_GT(growth(1.001 * *critical.value, 12.0 * pi), 0.0);
+  const StabilityMap& map = *results.map;
+  EXPECT_EQ(map.method, "hill");
+  EXPECT_LT(*map.error, 1e-4);
+  for (Eigen::Index i = 0; i < 2; ++i)
+    for (Eigen::Index j = 0; j < 2; ++j) {
+      const double floquet = growth(map.values[i], map.speeds[j]);
+      EXPECT_NEAR(map.growth(i, j), floquet, 1e-3 * std::abs(floquet));
+    }
+}
+
+TEST(TurningEigenvalues, AreThoseOfTheStateMatrixWhereTheDiscIsAxisymmetric)
+{
+  SquealOptions options = reference_options();
+  options.study.speeds = {.from = 2.0 * pi, .to = 12.0 * pi, .count = 3};
+  const Disc disc = disc_of({turned_by(kirchhoff_2(), 0.4), kirchhoff_3()});
+  const TurningEigenvalues found = turning_eigenvalues(disc, options);
+  EXPECT_EQ(found.mean.of, "mean matrix");
+  EXPECT_EQ(found.frozen.of, "worst frozen angle");
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Eigen::VectorXcd expected =
+        oscillating_eigenvalues(state_matrix(inertial_disc(disc), options, found.mean.speeds[i]));
+    for (const EigenvalueMap* map : {&found.mean, &found.frozen})
+      for (const Complex lambda : map->lambda.row(i))
+        EXPECT_LT((expected.array() - lambda).abs().minCoeff(), 1e-8);
+  }
+}
+
+TEST(TurningEigenvalues, OfTheMeanAndOfTheWorstAngleAreTheirMatrices)
+{
+  SquealOptions options = reference_options();
+  options.study.speeds = {.from = 6.0 * pi, .to = 9.0 * pi, .count = 2};
+  const Disc disc = disc_of({turned_by(kirchhoff_3(), 0.3, 0.0101)});
+  const SquealResults results = [&] {
+    StudyOptions study = options.study;
+    study.analyses = {"eigenvalues"};
+    return run(FlexibleDisc(disc, options), study);
+  }();
+  const EigenvalueMap &mean = *results.eigenvalues, &frozen = *results.frozen_eigenvalues;
+  ASSERT_EQ(frozen.angles.size(), 2);
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    TurningBrake brake(disc, nearest_pairs(disc), options, mean.speeds[i]);
+    constexpr int n = 64;
+    Eigen::MatrixXd A_0 = Eigen::MatrixXd::Zero(4, 4);
+    for (int s = 0; s < n; ++s) A_0 += brake.at(2.0 * pi * s / n) / n;
+    const Eigen::VectorXcd of_mean = A_0.eigenvalues(),
+                           of_frozen = brake.at(frozen.angles[i]).eigenvalues();
+    EXPECT_NEAR(mean.lambda.row(i).real().maxCoeff(), of_mean.real().maxCoeff(), 1e-8);
+    EXPECT_NEAR(frozen.lambda.row(i).real().maxCoeff(), of_frozen.real().maxCoeff(), 1e-8);
+    // The split pair: the mean is nearer to the turning disc than the frozen angle is.
+    const double growth = Hill(disc, options).exponents(mean.speeds[i]).lambda[0].real();
+    EXPECT_LT(std::abs(mean.lambda.row(i).real().maxCoeff() - growth),
+              std::abs(frozen.lambda.row(i).real().maxCoeff() - growth));
+  }
+  const SquealResults read = returned(results);
+  EXPECT_EQ(read.frozen_eigenvalues->lambda, frozen.lambda);
+  EXPECT_EQ(read.frozen_eigenvalues->angles, frozen.angles);
+  EXPECT_EQ(read.eigenvalues->of, mean.of);
+}
+
 /// Motions that are known at each value, at a speed of 1 rad/s with the period of a rotation.
 ExponentsAt known(const std::function<Eigen::VectorXcd(double)>& lambda)
 {

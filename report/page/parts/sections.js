@@ -51,7 +51,9 @@ function drawRun(run, benchmark) {
   if (run.modes) drawModes(run);
   if (run.groups) drawGroups(run);
   if (run.responses) drawResponses(run.responses);
-  if (run.campbell) section("campbell", "Stability over the speed", figures(...campbellFigures(run)));
+  const named = ({of}) => `Stability over the speed${of ? `: ${of}` : ""}`;
+  if (run.campbell) section("campbell", named(run.campbell), figures(...campbellFigures(run)));
+  if (run.frozen) section("frozen", named(run.frozen), figures(...campbellFigures({campbell: run.frozen})));
   if (run.unstable_modes) section("modes-of-squeal", "Unstable modes", unstableModesTable(run), figures(...unstableModesFigures(run)));
   if (run.rotation) section("rotation", "Stability of the turning disc", figures(...rotationFigures(run)));
   if (run.gradients) drawGradients(run);
