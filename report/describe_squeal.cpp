@@ -119,7 +119,7 @@ void add_named_eigenvalues(TextTable& table, const squeal::EigenvalueMap& map)
   if (map.angles.size() > 0)
     of += fmt::format(", {:.4g} degrees", map.angles[at] * 180.0 / std::numbers::pi);
   for (std::size_t j = 0; j < std::min(most_told, lambda.size()); ++j) {
-    if (j > 0 && !(lambda[j].real() > 0.0)) return;
+    if (j > 0 && !(lambda[j].real() > rounding * std::abs(lambda[j]))) return;
     add(table,
         fmt::format("growth at {:.6g} rad/s of {:.2f} Hz ({})", map.speeds[at],
                     lambda[j].imag() / (2.0 * std::numbers::pi), of),
@@ -183,7 +183,8 @@ void add_map(TextTable& table, const squeal::StabilityMap& map)
 {
   add_count(table, fmt::format("points of the map of speed and {}", map.parameter),
             map.growth.size());
-  const double zero = rounding * 2.0 * std::numbers::pi * map.frequency_Hz.maxCoeff();
+  const double zero = std::max(rounding * 2.0 * std::numbers::pi * map.frequency_Hz.maxCoeff(),
+                               map.error.value_or(0.0));
   add_count(table, "unstable ones of them", (map.growth.array() > zero).count());
   add(table, "largest growth rate in the map", map.growth.maxCoeff(), "1/s");
   if (map.method.empty()) return;

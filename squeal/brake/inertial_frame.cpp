@@ -309,11 +309,8 @@ InertialDisc inertial_disc(const Disc& disc)
   auto outcome = try_inertial_disc(disc);
   if (const auto* complaint = std::get_if<Complaint>(&outcome)) {
     throw Error(fmt::format(
-        "the disc is not axisymmetric: {}. Its equations have the period of a rotation, "
-        "so that it has no limit cycle and no state matrix whose modes could be left "
-        "out one by one: instead of \"limit-cycle-direct\" and \"limit-cycle-branch\" "
-        "ask for \"transient\" with \"motion-statistics\", and for \"gradients\" "
-        "instead of \"mode-sensitivity\"",
+        "the disc is not axisymmetric: {}. Amplitudes in the frame that does not turn, and the "
+        "matrix of an assembly, need an axisymmetric disc and both modes of each pair",
         complaint->text));
   }
   return std::get<InertialDisc>(std::move(outcome));

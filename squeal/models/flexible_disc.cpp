@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "common/error.hpp"
+#include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/linear_contact.hpp"
 #include "squeal/models/brake.hpp"
 #include "squeal/motion/disc_motion.hpp"
@@ -33,7 +35,14 @@ FlexibleDisc::FlexibleDisc(Disc disc, SquealOptions options,
 
 const InertialDisc& FlexibleDisc::inertial() const
 {
-  if (!*inertial_) inertial_disc(*disc_);  // says why there is none
+  if (const auto why = *inertial_ ? std::nullopt : asymmetry(*disc_)) {
+    throw Error(fmt::format(
+        "the disc is not axisymmetric: {}. Its equations have the period of a rotation, so that it "
+        "has no limit cycle and no state matrix whose modes could be left out one by one: instead "
+        "of \"limit-cycle-direct\" and \"limit-cycle-branch\" ask for \"transient\" with "
+        "\"motion-statistics\", and for \"gradients\" instead of \"mode-sensitivity\"",
+        *why));
+  }
   return inertial_->value();
 }
 

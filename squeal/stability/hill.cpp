@@ -47,7 +47,8 @@ HillExponents exponents_of_groups(const std::vector<NearGroup>& groups, const Tu
     const GroupExponents found = group_exponents(group, modes.step);
     trace -= (group.has_mirror ? 2.0 : 1.0) * found.lambda.sum().real();
     for (const std::complex<double>& lambda : found.lambda)
-      if (group.has_mirror || lambda.imag() >= 0.0)
+      // A real one, that is its own mirror image, may have some round-off.
+      if (group.has_mirror || lambda.imag() >= 0.0 || found.lambda.size() == 1)
         all.push_back({lambda, group.doubt > 0.0 ? group.doubt + found.error : 0.0});
     if (group.doubt > 0.0) continue;
     n_solved += (group.has_mirror ? 2 : 1) * found.lambda.size();
@@ -121,9 +122,9 @@ Hill::Solved Hill::solved(double speed, const std::optional<GroupsAsked>& asked)
     if (error <= tolerance_) return {std::move(harmonics), std::move(modes), std::move(groups)};
   }
   throw Error(
-      fmt::format("rotation-stability at {:.6g} rad/s: {} harmonics of the rotation are not enough "
-                  "for a growth "
-                  "rate to {:.1e} 1/s; use rotation_stability = {{ method = \"floquet\" }}",
+      fmt::format("Hill's method at {:.6g} rad/s: {} harmonics of the rotation are not enough for a "
+                  "growth rate to {:.1e} 1/s; ask for \"rotation-stability\" with "
+                  "rotation_stability = {{ method = \"floquet\" }}",
                   speed, n_samples_max / 2 * nu, tolerance_));
 }
 
@@ -195,9 +196,11 @@ Eigen::MatrixXcd backwards(const Eigen::MatrixXcd& z)
 
 }  // namespace
 
-FloquetMotions Hill::motions(double speed, Index n) const
+FloquetMotions Hill::motions(double speed, Index n, std::optional<double> omega) const
 {
-  const GroupsAsked asked{.least_stable = n};
+  constexpr Index about_a_limit = 5;  // where others may grow as little
+  constexpr double same_frequency = 1e-3;
+  const GroupsAsked asked{.least_stable = omega ? std::max(n, about_a_limit) : n};
   const Solved found = solved(speed, asked);
   const TurningModes& modes = found.modes;
   const std::vector<NearGroup> left_groups = near_groups(adjoint_of(modes), tolerance_, asked);
@@ -210,7 +213,16 @@ FloquetMotions Hill::motions(double speed, Index n) const
     const Eigen::MatrixXcd of_group = group_motion(group, modes.step, exponent);
     return of_group.size() > 0 ? whole_motion(group, of_group, modes.size()) : of_group;
   };
-  for (const auto& [group, exponent] : ordered_exponents(found.groups, modes.step)) {
+  auto ordered = ordered_exponents(found.groups, modes.step);
+  if (omega) {
+    const auto distance = [&](const ExponentOfGroup& one) {
+      return std::abs(std::abs(one.lambda.imag()) - *omega);
+    };
+    std::ranges::stable_sort(ordered, {}, distance);
+    if (!ordered.empty() && !(distance(ordered.front()) < same_frequency * *omega)) ordered.clear();
+    ordered.resize(std::min<std::size_t>(ordered.size(), 1));
+  }
+  for (const auto& [group, exponent] : ordered) {
     if (!lambda.empty() && (!(exponent.real() > 0.0) || std::ssize(lambda) == n)) break;
     const Eigen::MatrixXcd y = whole(*group, exponent);
     if (y.size() == 0) continue;

@@ -61,13 +61,14 @@ class Hill {
   /// @throws chladni::Error when K = 512 nu is not sufficient.
   HillExponents exponents(double speed, std::optional<Eigen::Index> n_least_stable = {}) const;
 
-  /// The exponents of all motions; those that cannot grow are estimates by the second order of the
+  /// The exponents of all motions; those not expected to grow are estimates by the second order of the
   /// harmonics, in a small part of the time.
   HillExponents followable(double speed) const;
 
   /// The motions that grow most, up to `n`, the first of them and others that grow. Of motions that
   /// act on each other some may be missing beside one that grows much faster.
-  FloquetMotions motions(double speed, Eigen::Index n) const;
+  /// @param omega  the motion of this frequency (rad/s) alone, which need not grow
+  FloquetMotions motions(double speed, Eigen::Index n, std::optional<double> omega = {}) const;
 
   /// The brake at a speed (rad/s) between other pads, in the coordinates of this one's motions.
   TurningBrake brake(const SquealOptions& options, double speed) const

@@ -199,6 +199,8 @@ constexpr double limit_error = 1e-4;
 constexpr int halvings_of_exponent = 6;
 /// Of the distance of two values, for the first slopes.
 constexpr double first_step = 1e-3;
+/// Exponents among which that of the critical motion is, just beside its limit.
+constexpr Index few_motions = 5;
 
 /// Where the motions are expected.
 struct Expected {
@@ -314,14 +316,27 @@ std::optional<CriticalSpeed> turning_critical_speed(const FlexibleDisc& brake,
   if (!lost) return std::nullopt;
   const Index n = table.values.size();
   const double step = n > 1 ? (table.values[n - 1] - table.values[0]) / double(n - 1) : 0.0;
-  const double h = first_step * lost->value;
+  const auto grows = std::ranges::find_if(
+      profile.unstable, [&](const UnstableInterval& one) { return one.from.value == lost->value; });
+  const double width = grows != profile.unstable.end() ? grows->to.value - grows->from.value : 0.0;
+  const double h = std::min(first_step * lost->value, 0.5 * width);
   const Hill hill(brake.disc(), brake.options());
-  const HillExponents below = hill.exponents(lost->value - h, 1),
-                      above = hill.exponents(lost->value + h, 1);
-  const double slope = (above.lambda[0] - below.lambda[0]).real() / (2.0 * h);
   CriticalSpeed critical{lost->value, lost->frequency_Hz};
-  critical.budget.integration =
-      limit_error * step + std::max(table.error, above.error) / std::abs(slope);
+  const auto growth_at = [&](double speed, double& error) {
+    const HillExponents found = hill.exponents(speed, few_motions);
+    error = std::max(error, found.error);
+    Index nearest = 0;
+    if (found.lambda.size() == 0) return std::numeric_limits<double>::quiet_NaN();
+    (found.lambda.imag().array().abs() - 2.0 * std::numbers::pi * lost->frequency_Hz)
+        .abs()
+        .minCoeff(&nearest);
+    return found.lambda[nearest].real();
+  };
+  double error = table.error;
+  const double below = growth_at(lost->value - h, error), above = growth_at(lost->value + h, error);
+  const double slope = (above - below) / (2.0 * h);
+  if (std::isfinite(slope) && slope > 0.0)
+    critical.budget.integration = limit_error * step + error / slope;
   return critical;
 }
 

@@ -409,8 +409,7 @@ Eigen::MatrixXcd coupling(const TurningModes& modes, const Eigen::MatrixXcd& B_k
   return from_real_pairs(lambda, PB.adjoint()).adjoint();
 }
 
-/// What each state has of others by the second order of B, by way of them and back, without those
-/// that are near.
+/// What each state has of those beyond its set by the second order of B, by way of them and back.
 struct SecondOrder {
   Eigen::VectorXcd shift;  ///< [m] of lambda, 1/s
   Eigen::VectorXd doubt;   ///< [m] 1/s
@@ -423,7 +422,9 @@ SecondOrder unite_near(Sets& sets, const TurningModes& modes)
   const Index m = modes.size();
   States all(static_cast<std::size_t>(m));
   std::iota(all.begin(), all.end(), Index{0});
-  SecondOrder order{Eigen::VectorXcd::Zero(m), Eigen::VectorXd::Zero(m)};
+  // Of state j by way of i, of all harmonics.
+  Eigen::MatrixXcd shift = Eigen::MatrixXcd::Zero(m, m);
+  Eigen::MatrixXd doubt = Eigen::MatrixXd::Zero(m, m);
   for (Index k = 1; k <= modes.highest; ++k) {
     const Eigen::MatrixXcd B_k = modes.harmonic(k);
     const Eigen::MatrixXcd up = coupling(modes, B_k, all),
@@ -433,9 +434,9 @@ SecondOrder unite_near(Sets& sets, const TurningModes& modes)
       if (there(i, j) == Complex(0.0)) return;
       const Complex d = turned - modes.lambda[i] + modes.lambda[j];
       if (i == j || std::norm(there(i, j)) <= near * near * std::norm(d)) {
-        const Complex shift = back(j, i) * there(i, j) * std::conj(d) / std::norm(d);
-        order.shift[j] += shift;
-        order.doubt[j] += of_next_order * std::sqrt(std::norm(shift));
+        const Complex part = back(j, i) * there(i, j) * std::conj(d) / std::norm(d);
+        shift(i, j) += part;
+        doubt(i, j) += of_next_order * std::sqrt(std::norm(part));
       } else {
         sets.unite({i, j});
       }
@@ -447,6 +448,14 @@ SecondOrder unite_near(Sets& sets, const TurningModes& modes)
         couple(down, up, -turn, i, j);
       }
   }
+  // The equations of a set have all harmonics between its states.
+  SecondOrder order{Eigen::VectorXcd::Zero(m), Eigen::VectorXd::Zero(m)};
+  for (Index j = 0; j < m; ++j)
+    for (Index i = 0; i < m; ++i) {
+      if (sets.set_of(i) == sets.set_of(j)) continue;
+      order.shift[j] += shift(i, j);
+      order.doubt[j] += doubt(i, j);
+    }
   return order;
 }
 

@@ -216,11 +216,12 @@ namespace {
 /// A(phi) - speed d/dphi, d lambda = mean of l^T dL r.
 class TurningChange {
  public:
-  TurningChange(const FlexibleDisc& brake, double speed, Index n)
+  /// @param omega  as of Hill::motions
+  TurningChange(const FlexibleDisc& brake, double speed, Index n, std::optional<double> omega = {})
       : options_(&brake.options()),
         speed_(speed),
         hill_(brake.disc(), brake.options()),
-        motions_(hill_.motions(speed, n)),
+        motions_(hill_.motions(speed, n, omega)),
         n_disc_(brake.disc().n_modes())
   {
     if (motions_.lambda.size() > 0) return;
@@ -384,7 +385,7 @@ Gradients turning_gradients(const FlexibleDisc& brake, const StudyOptions& optio
   if (critical) {
     result.critical_speed = critical->speed;
     result.critical_frequency_Hz = critical->frequency_Hz;
-    const TurningChange change(brake, critical->speed, 1);
+    const TurningChange change(brake, critical->speed, 1, 2.0 * pi * critical->frequency_Hz);
     const MatrixXd growth = growth_by_all(brake, change);
     const double by_speed = change.by_speed()[0].real();
     each_row([&](GradientRow& row, Index i) { row.critical_speed = -growth(i, 0) / by_speed; });
