@@ -8,11 +8,15 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
+#include <optional>
+#include <tuple>
 
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "mesh/nodal_matrices.hpp"
+#include "mesh/sectors.hpp"
 #include "plate/dofs/point_elements.hpp"
 
 namespace chladni::plate {
@@ -20,6 +24,7 @@ namespace chladni::plate {
 namespace {
 
 using Eigen::Index;
+using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using RowVector6d = Eigen::Matrix<double, 1, 6>;
@@ -72,6 +77,55 @@ int number_of(const DofMap& dofs, int node)
   return dofs.motion(node).front().number;
 }
 
+/// A part of a sector that a part of the next one continues, or that is the same in all sectors.
+struct Continuation {
+  int part, next;  ///< that of the sector before, and that of the next
+};
+
+/// Joins the parts of one sector that are one through other sectors. Parts that reach each other on
+/// a way of n sectors are one in each sector if the sums n of all ways there and back have no
+/// divisor in common with the number of sectors.
+void join_over_sectors(const mesh::Mesh& mesh, const DofMap& dofs, Connection& connection)
+{
+  if (mesh.sectors.count == 1) return;
+  const std::vector<int> part_of = numbered(connection, dofs.n_active());
+  std::vector<Continuation> over;
+  for (const auto& [low, high] : mesh.sectors.pairs)
+    over.push_back({part_of[number_of(dofs, high)], part_of[number_of(dofs, low)]});
+  const double length = mesh::outer_radius(mesh);
+  for (int node = 0; node < dofs.n_nodes(); ++node) {
+    const Vector3d x = dofs.position(node);
+    if (dofs.number(node) < 0 || !mesh::is_on_axis({x[0], x[1], x[2]}, length)) continue;
+    over.push_back({part_of[dofs.number(node)], part_of[dofs.number(node)]});
+  }
+  const int n_parts = count_of(part_of);
+  std::vector<std::optional<int>> sector(n_parts);
+  std::vector<int> first_number(n_parts, -1);
+  for (int i = 0; i < dofs.n_active(); ++i)
+    if (int& first = first_number[part_of[i]]; first < 0) first = i;
+  for (int root = 0; root < n_parts; ++root) {
+    if (sector[root]) continue;
+    sector[root] = 0;
+    std::vector<int> reached{root};
+    int common = mesh.sectors.count;
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      for (const auto& [part, next] : over) {
+        if (part != reached[i] && next != reached[i]) continue;
+        for (const auto& [at, to, step] : {std::tuple{part, next, 1}, {next, part, -1}}) {
+          if (at != reached[i]) continue;
+          if (!sector[to]) {
+            sector[to] = *sector[at] + step;
+            reached.push_back(to);
+          }
+          common = std::gcd(common, std::abs(*sector[at] + step - *sector[to]));
+        }
+      }
+    }
+    for (const int part : reached)
+      if (common == 1) connection.join(first_number[root], first_number[part]);
+  }
+}
+
 Parts connected_parts(const mesh::Mesh& mesh, const DofMap& dofs,
                       std::span<const PlacedSpring> springs)
 {
@@ -81,6 +135,7 @@ Parts connected_parts(const mesh::Mesh& mesh, const DofMap& dofs,
     for (const int node : nodes)
       for (const MotionTerm& term : dofs.motion(node)) connection.join(first, term.number);
   });
+  join_over_sectors(mesh, dofs, connection);
   Parts parts{.of_number = numbered(connection, dofs.n_active()), .body = {}, .place = {}};
   const int n_parts = count_of(parts.of_number);
   Connection bodies(n_parts);
@@ -142,8 +197,10 @@ RowVector6d rigid_row(const Vector3d& position, const Extent& extent, int compon
 /// For each body R with R x = 0 for the rigid motions x of its parts that nothing resists.
 class Resistance {
  public:
-  Resistance(const DofMap& dofs, const Parts& parts, const std::vector<Extent>& extents)
-      : dofs_(dofs), parts_(parts), extents_(extents)
+  /// @param turns  of the body onto itself
+  Resistance(const DofMap& dofs, const Parts& parts, const std::vector<Extent>& extents,
+             std::vector<Matrix3d> turns)
+      : dofs_(dofs), parts_(parts), extents_(extents), turns_(std::move(turns))
   {
     for (const Extent& extent : extents) rows_.emplace_back(0, 6 * extent.n_parts);
   }
@@ -151,12 +208,14 @@ class Resistance {
   /// This component of the node does not move, but for a rotation about the axis.
   void hold(int node, int component, const Vector3d& axis)
   {
-    const Vector3d x = dofs_.position(node);
     const Extent& extent = extents_[body_of(node)];
-    RowVector6d motion = rigid_row(x, extent, component);
-    for (int k = 0; component >= 3 && k < 3; ++k)
-      motion -= axis[component - 3] * axis[k] * rigid_row(x, extent, 3 + k);
-    resist({&node, 1}, motion);
+    for (const Matrix3d& turn : turns_) {
+      const Vector3d x = turn * dofs_.position(node), about = turn * axis;
+      RowVector6d motion = rigid_row(x, extent, component);
+      for (int k = 0; component >= 3 && k < 3; ++k)
+        motion -= about[component - 3] * about[k] * rigid_row(x, extent, 3 + k);
+      resist({&node, 1}, motion);
+    }
   }
   /// A spring resists the motion against the ground or of both nodes, seen at the middle.
   void add(const PlacedSpring& spring)
@@ -164,7 +223,8 @@ class Resistance {
     const int a = spring.nodes.front(), b = spring.nodes.back();
     const Vector3d middle = 0.5 * (dofs_.position(a) + dofs_.position(b));
     for (const int component : spring.components)
-      resist(spring.nodes, rigid_row(middle, extents_[body_of(a)], component));
+      for (const Matrix3d& turn : turns_)
+        resist(spring.nodes, rigid_row(turn * middle, extents_[body_of(a)], component));
   }
   /// The motions of a body that nothing resists, orthonormal.
   MatrixXd unresisted(int body) const
@@ -198,8 +258,21 @@ class Resistance {
   const DofMap& dofs_;
   const Parts& parts_;
   const std::vector<Extent>& extents_;
+  std::vector<Matrix3d> turns_;
   std::vector<MatrixXd> rows_;
 };
+
+/// Turns of a body of sectors that take its supports to other sectors: what is held in three of
+/// them is held in all.
+std::vector<Matrix3d> turns_of(const mesh::Sectors& sectors)
+{
+  std::vector<Matrix3d> turns;
+  for (int i = 0; i < std::min(sectors.count, 3); ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / sectors.count;
+    turns.push_back(Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix());
+  }
+  return turns;
+}
 
 /// What supports and the model hold. Nodes of solids have no rotations to be held.
 void hold_supports(const DofMap& dofs, const Restraints& restraints, Resistance& resistance)
@@ -232,7 +305,7 @@ std::vector<FreePart> free_parts_under(const mesh::Mesh& mesh, const DofMap& dof
   const std::vector<PlacedSpring> placed = place_springs(mesh, dofs, restraints.springs);
   const Parts parts = connected_parts(mesh, dofs, placed);
   const std::vector<Extent> extent = extents(dofs, parts);
-  Resistance resistance(dofs, parts, extent);
+  Resistance resistance(dofs, parts, extent, turns_of(mesh.sectors));
   hold_supports(dofs, restraints, resistance);
   for (const PlacedSpring& spring : placed) resistance.add(spring);
   std::vector<FreePart> free;

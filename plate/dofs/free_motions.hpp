@@ -22,7 +22,9 @@ struct FreePart {
 
 /// The bodies that can still move as rigid ones when the held DOFs, and the components that the
 /// nodes do not have, are zero. They are found from the geometry, because a factor of K is no
-/// reliable indicator: a soft spring holds a stiff body as well as a hard one.
+/// reliable indicator: a soft spring holds a stiff body as well as a hard one. Of a mesh of one
+/// sector they are those of the whole body, whose pieces may hang together through other sectors;
+/// supports and springs are the same in all of them.
 /// @param held  ascending, the same on every rank
 std::vector<FreePart> free_parts(const mesh::Mesh& mesh, const DofMap& dofs,
                                  const std::vector<int>& held,

@@ -14,6 +14,8 @@
 namespace chladni::cases {
 namespace {
 
+using Eigen::VectorXd;
+
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
 /// @param mesh  keys of [mesh] with the groups of its shells
@@ -233,6 +235,67 @@ TEST(SectorFrequencies, OfAMeshOfOneSectorAreThoseOfTheWhole)
   // Large elements are cut at free edges, which the edges of the sector are not.
   const scene::Scene large = held(annulus(0.08));
   expect_those_of(large, mesh_on_all_ranks(large));
+}
+
+/// A disc of three sectors with slots that leave the end of each rim hanging on the next sector.
+mesh::Mesh slotted(mesh::Mesh mesh)
+{
+  for (mesh::ElementBlock& block : mesh.blocks) {
+    mesh::ElementBlock kept = block;
+    kept.numbers.clear(), kept.nodes.clear(), kept.group.clear();
+    for (int e = 0; e < block.n_elements(); ++e) {
+      double x = 0.0, y = 0.0;
+      for (const int node : block.element_nodes(e)) {
+        x += mesh.positions[std::size_t(node)][0] / block.nodes_per_element;
+        y += mesh.positions[std::size_t(node)][1] / block.nodes_per_element;
+      }
+      const double radius = std::hypot(x, y), turn = std::atan2(y, x) / two_pi + 1.0;
+      const double degrees = 360.0 * std::fmod(turn, 1.0 / 3.0);
+      const bool is_slot = degrees > 60.0 && radius > 0.08 && (radius < 0.11 || degrees < 90.0);
+      if (is_slot) continue;
+      kept.numbers.push_back(block.numbers[std::size_t(e)]);
+      kept.group.push_back(block.group[std::size_t(e)]);
+      for (const int node : block.element_nodes(e)) kept.nodes.push_back(node);
+    }
+    block = kept;
+  }
+  mesh::drop_unused_nodes(mesh);
+  return mesh;
+}
+
+TEST(SectorFrequencies, OfPiecesThatHangTogetherThroughOtherSectorsAreThoseOfTheWhole)
+{
+  for (const bool is_held : {false, true}) {
+    const scene::Scene scene = is_held ? held(annulus(0.02)) : annulus(0.02);
+    const mesh::Mesh whole = slotted(mesh_on_all_ranks(scene));
+    const mesh::Mesh one = mesh::one_sector(whole, 3);
+    const auto sector = SectorFrequencies::find(scene, one);
+    ASSERT_TRUE(sector.has_value());
+    const SupportedModel model = assemble_supported(scene, whole);
+    ASSERT_EQ(model.free.size(), is_held ? 0U : 1U);
+    EXPECT_EQ(sector->n_dofs(), model.system.dofs.n_dofs());
+    const VectorXd ours = sector->up_to(two_pi * 2000.0, {});
+    const int n_rigid = plate::n_free_motions(model.free);
+    const reduce::NaturalModes modes = reduce::natural_modes(
+        model.system.K, model.system.M, reduce::free_dofs(model.system.K, model.held),
+        {.n_modes = n_rigid + int(ours.size()), .n_rigid = n_rigid});
+    ASSERT_GT(ours.size(), 5);
+    for (Eigen::Index i = 0; i < ours.size(); ++i)
+      EXPECT_NEAR(std::sqrt(modes.lambda[std::size_t(n_rigid + i)]) / ours[i], 1.0, 1e-8);
+  }
+}
+
+/// What each sector holds by itself holds the body, also where it would let a sector turn.
+TEST(SectorFrequencies, OfASupportThatHoldsTheBodyButNoSectorAreThoseOfTheWhole)
+{
+  scene::Scene scene = annulus(0.03);
+  mesh::Mesh whole = mesh_on_all_ranks(scene);
+  whole.groups.push_back(bolts(whole));
+  scene.supports = {{.group = "bolts", .components = {0, 1, 2}}};
+  const mesh::Mesh one = mesh::one_sector(whole, 3);
+  const auto sector = SectorFrequencies::find(scene, one);
+  ASSERT_TRUE(sector.has_value());
+  EXPECT_GT(sector->up_to(two_pi * 3000.0, {})[0], two_pi * 10.0);
 }
 
 TEST(SectorFrequencies, OfAMeshOfOneSectorAreRefusedWhereTheSupportDoesNotTurn)
