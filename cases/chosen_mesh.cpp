@@ -34,6 +34,9 @@ constexpr double share_of_mesh = 0.9;
 /// nothing where no scene may ask for so little.
 std::string or_ask_for_less(double error_of_mesh);
 
+/// Larger models are not tried.
+constexpr int most_dofs = 400'000;
+
 /// A mesh that keeps the accuracy of a scene.
 struct FoundMesh {
   MeshSize size;
@@ -57,6 +60,44 @@ struct Trial {
   double error;       ///< the largest
   MeshErrors errors;  ///< of each mode; empty where they were compared with known frequencies
 };
+
+/// By how much each halving of the elements lowers the largest error, of what acts at single nodes
+/// of shells.
+double per_halving(const MeshErrors& errors)
+{
+  if (errors.per_halving.size() == 0) return 0.0;
+  Eigen::Index mode = 0;
+  errors.errors.maxCoeff(&mode);
+  return errors.per_halving[mode];
+}
+
+/// The part of the largest error that is theirs.
+double of_points(const MeshErrors& errors)
+{
+  return errors.halvings * per_halving(errors);
+}
+
+/// No mesh keeps the accuracy.
+class NoLimit : public Error {
+ public:
+  using Error::Error;
+};
+
+/// What acts at single nodes of shells lets no mesh of a possible size keep an accuracy.
+void refuse_points(const scene::Scene& scene, const MeshErrors& errors)
+{
+  constexpr double possible_halvings = 2.0;
+  const double target = share_of_mesh * scene.accuracy->error;
+  if (of_points(errors) - possible_halvings * per_halving(errors) <= target) return;
+  throw NoLimit(fmt::format(
+      "{}: accuracy.error = {:.6g} up to {:.6g} Hz: what acts at single nodes of shells (support, "
+      "spring, mass, coupling or beam) has no limit: each halving of the elements lowers a "
+      "frequency by another {:.2g} of it, which is {:.2g} down to nodes a tenth of the thickness "
+      "apart, and the mesh may have {:.2g}; spread it over an edge, or over the nodes around by a "
+      "[[coupling]] whose group is an edge or a surface{}",
+      scene.path, scene.accuracy->error, scene.accuracy->up_to_Hz, per_halving(errors),
+      of_points(errors), target, or_ask_for_less(errors.largest())));
+}
 
 /// The search for a mesh.
 class Search {
@@ -99,14 +140,14 @@ class Search {
   /// From the size that the trial tells to smaller elements until the target is kept.
   Trial refined(Trial trial)
   {
-    constexpr int most_trials = 12;
     if (takes_places_ && !is_estimated(trial) && !keeps(trial))
       if (auto estimated = possible([&] { return tried(trial.size); }))
         trial = std::move(*estimated);
     const Trial even = trial;
     MeshSize next = next_size(trial, most_step);
     std::optional<Trial> much_larger;
-    for (int i = 0; i < most_trials; ++i) {
+    std::string untried = "smaller elements lower it no more";
+    for (int i = 0;; ++i) {
       const bool was_kept = i > 0 && keeps(trial);
       if (was_kept && is_estimated(trial)) return trial;
       if (was_kept)
@@ -123,18 +164,28 @@ class Search {
         }
         continue;
       }
+      if (predicted_dofs(trial, next) > most_dofs) {
+        untried = fmt::format("meshes of more than {} DOFs are not tried", most_dofs);
+        break;
+      }
       trial = next_trial(next, was_kept || !can_compare());
       if (keeps(trial)) continue;
+      if (const std::optional<Trial> larger = slow_from(trial)) {
+        if (std::optional<Trial> other = with_edge_row(*larger)) {
+          trial = std::move(*other);
+          much_larger.reset();
+          continue;
+        }
+      }
       if (much_larger && is_stuck(*much_larger, trial)) break;
       if (!much_larger || trial.n_dofs > twice * much_larger->n_dofs) much_larger = trial;
     }
-    if (keeps(trial)) return trial;
     const auto [reached, allowed] = told_apart(trial.error, target_);
     throw Error(fmt::format(
         "{}: accuracy.error = {:.6g} up to {:.6g} Hz: the mesh may have {} of it, and the best one "
-        "that was tried, {}, has an error of {}; choose the mesh yourself{}",
+        "that was tried, {}, has an error of {}; {}: choose the mesh yourself{}",
         scene_.path, scene_.accuracy->error, scene_.accuracy->up_to_Hz, allowed,
-        described(trial.size), reached, or_ask_for_less(trial.error)));
+        described(trial.size), reached, untried, or_ask_for_less(trial.error)));
   }
 
  private:
@@ -142,6 +193,40 @@ class Search {
   static bool is_estimated(const Trial& trial) { return trial.errors.omega.size() > 0; }
   /// As many elements as that should help.
   static constexpr double twice = 2.0;
+  /// A mesh of larger elements than this one, if the error has fallen since by less than half the
+  /// power of the size that is expected, as where elements do not resolve the layer at an edge.
+  std::optional<Trial> slow_from(const Trial& trial) const
+  {
+    constexpr double clearly_finer = 1.2;
+    for (const Trial& larger : trials_) {
+      const double finer = std::sqrt(double(trial.n_dofs) / larger.n_dofs);
+      if (larger.size.order == trial.size.order && larger.size.edge_row == trial.size.edge_row &&
+          larger.size.places.empty() && is_estimated(larger) == is_estimated(trial) &&
+          finer > clearly_finer &&
+          larger.error < trial.error * std::pow(finer, 0.5 * rate_of(trial)))
+        return larger;
+    }
+    return std::nullopt;
+  }
+  /// The same mesh with rows along the edges, where these are left open and take much of its error.
+  std::optional<Trial> with_edge_row(const Trial& trial)
+  {
+    constexpr double much = 0.6;
+    MeshSize with_row = trial.size;
+    with_row.edge_row = least_thickness(scene_);
+    if (!scene_.accuracy->chooses_edge_row || trial.size.edge_row ||
+        !takes_edge_row(scene_.mesh, *with_row.edge_row) || trial.size.size <= *with_row.edge_row)
+      return std::nullopt;
+    std::optional<Trial> other =
+        possible([&] { return is_estimated(trial) ? tried(with_row) : compared(with_row); });
+    if (other && other->error > much * trial.error) other.reset();
+    return other;
+  }
+  static double predicted_dofs(const Trial& trial, const MeshSize& next)
+  {
+    const double finer = trial.size.size / next.size;
+    return trial.n_dofs * finer * finer;
+  }
   bool is_stuck(const Trial& larger, const Trial& smaller) const
   {
     return is_estimated(larger) && is_estimated(smaller) && !keeps(smaller) &&
@@ -171,10 +256,12 @@ class Search {
     show("errors of mesh", size);
     MeshErrors errors = frequencies.errors_up_to(two_pi * scene_.accuracy->up_to_Hz, solver_);
     const double largest = errors.largest();
-    return kept({.size = size,
-                 .n_dofs = frequencies.n_dofs(),
-                 .error = largest,
-                 .errors = std::move(errors)});
+    const Trial& trial = kept({.size = size,
+                               .n_dofs = frequencies.n_dofs(),
+                               .error = largest,
+                               .errors = std::move(errors)});
+    refuse_points(scene_, trial.errors);
+    return trial;
   }
 
   /// Its error against the known frequencies.
@@ -220,14 +307,21 @@ class Search {
     return attempt();
   }
 
-  /// The size at which a mesh like this one is expected to keep the target.
+  /// The size at which a mesh like this one is expected to keep the target. What acts at points
+  /// leaves less of it to the rest.
   double predicted_size(const Trial& trial) const
   {
-    constexpr double smallest_step = 0.3;
-    const double step = std::pow(0.7 * target_ / trial.error, 1.0 / rate_of(trial));
+    const double points = of_points(trial.errors), lost = per_halving(trial.errors);
+    const double rest = trial.error - points;
+    double step = std::pow(0.7 * target_ / std::max(rest, 1e-3 * target_), 1.0 / rate_of(trial));
+    constexpr double smaller = 0.95;
+    while (lost > 0.0 && step > smallest_step &&
+           rest * std::pow(step, rate_of(trial)) / 0.7 + points + lost * std::log2(step) > target_)
+      step *= smaller;
     return std::min(trial.size.size * std::clamp(step, smallest_step, most_step),
                     largest_size(scene_.mesh));
   }
+  static constexpr double smallest_step = 0.3;
   static constexpr double most_step = 1.4;  ///< from a mesh to one of larger elements
   /// With the size of the elements the error falls by this power or faster: by 2 order for a smooth
   /// mode on small elements.
@@ -274,6 +368,8 @@ class Search {
   {
     try {
       return attempt();
+    } catch (const NoLimit&) {
+      throw;
     } catch (const Error&) {
       return std::nullopt;
     }
@@ -451,7 +547,6 @@ struct BestSplit {
 MeshChoice split_mesh(const scene::Scene& supported, const MeshChoice& own, const mesh::Mesh& mesh,
                       const linear::SolverOptions& solver, Phases& phases)
 {
-  constexpr int most_dofs = 400'000;
   const scene::Scene& scene = own.scene;
   const std::string& file = *scene.mesh.file;
   BestSplit best{.error = own.errors->largest(), .mesh = file};
@@ -471,12 +566,15 @@ MeshChoice split_mesh(const scene::Scene& supported, const MeshChoice& own, cons
       }
       phases.show_step("errors of " + name);
       MeshErrors errors = frequencies.errors_up_to(two_pi * scene.accuracy->up_to_Hz, solver);
+      refuse_points(scene, errors);
       if (errors.largest() < best.error) best = {errors.largest(), name, best.untried};
       if (errors.largest() > share_of_mesh * scene.accuracy->error) continue;
       MeshChoice choice{.scene = scene, .errors = std::move(errors)};
       set_split(choice.scene.mesh, into);
       tell_choice(choice, name + told_shape(mesh));
       return choice;
+    } catch (const NoLimit&) {
+      throw;
     } catch (const Error& error) {  // of a refined mesh, on all ranks alike
       best.untried += fmt::format("; {}: {}", name, error.what());
     }
@@ -496,6 +594,7 @@ MeshChoice own_mesh(const scene::Scene& supported, const scene::Scene& scene,
     tell_choice(choice, described({}, *scene.mesh.file) + told_shape(mesh));
     return choice;
   }
+  refuse_points(scene, *choice.errors);
   return split_mesh(supported, choice, mesh, solver, phases);
 }
 

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
+#include <numeric>
 #include <span>
 
 #include "cases/fe_model.hpp"
@@ -15,8 +18,14 @@
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/sparse_product.hpp"
 #include "mesh/element_types.hpp"
+#include "mesh/partition.hpp"
+#include "plate/assembly/assemble.hpp"
 #include "plate/assembly/recovery.hpp"
+#include "plate/dofs/dof_map.hpp"
+#include "plate/dofs/drilling.hpp"
 #include "plate/sections/sections.hpp"
 #include "reduce/supported_solutions.hpp"
 
@@ -217,6 +226,199 @@ RefinedModes modes_on(const scene::Scene& scene, plate::RefinedMesh refined,
 
 namespace {
 
+/// The least thickness of the shells at each node: free edges have a layer of that width, where the
+/// twisting moment of a thin plate becomes its shear force.
+std::vector<double> thicknesses(const scene::Scene& scene, const mesh::Mesh& mesh)
+{
+  std::vector<double> least(mesh.positions.size(), std::numeric_limits<double>::infinity());
+  for (const plate::ShellSection& section : scene.sections)
+    for (const int node : mesh::find_group(mesh, section.group).nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      least[n] = std::min(least[n], plate::value_at(section.thickness, mesh.positions[n]));
+    }
+  return least;
+}
+
+/// Marks nodes of shells that something acts on, and those of them where it acts along an edge.
+class ActedOn {
+ public:
+  explicit ActedOn(const mesh::Mesh& mesh)
+      : mesh_(mesh),
+        is_shell_(plate::nodes_on_surfaces(mesh)),
+        acts_(is_shell_.size(), 0),
+        along_edge_(acts_)
+  {}
+
+  void add(const std::vector<int>& nodes, bool has_edges)
+  {
+    std::vector<char> is_in(acts_.size(), 0);
+    for (const int node : nodes) is_in[std::size_t(node)] = acts_[std::size_t(node)] = 1;
+    if (!has_edges) return;
+    const auto acts = [&](int node) { return is_in[std::size_t(node)] != 0; };
+    for (const mesh::ElementBlock& block : mesh_.blocks) {
+      for (int e = 0; mesh::is_surface(block.shape) && e < block.n_elements(); ++e)
+        for (const std::vector<int>& edge : mesh::edges_of(block, e))
+          if (std::ranges::all_of(edge, acts))
+            for (const int node : edge) along_edge_[std::size_t(node)] = 1;
+    }
+  }
+
+  /// Groups of points have no edges, also where two of their nodes are neighbours.
+  void add(const std::string& name)
+  {
+    const auto group = std::ranges::find(mesh_.groups, name, &mesh::Group::name);
+    if (group != mesh_.groups.end()) add(group->nodes, group->dimension > 0);
+  }
+
+  std::vector<int> points() const
+  {
+    std::vector<int> nodes;
+    for (std::size_t i = 0; i < acts_.size(); ++i)
+      if (is_shell_[i] != 0 && acts_[i] != 0 && along_edge_[i] == 0) nodes.push_back(int(i));
+    return nodes;
+  }
+
+ private:
+  const mesh::Mesh& mesh_;
+  std::vector<char> is_shell_, acts_, along_edge_;
+};
+
+std::vector<int> acted_on_at_points(const scene::Scene& scene, const mesh::Mesh& mesh)
+{
+  ActedOn acted(mesh);
+  for (const plate::Support& support : scene.supports) acted.add(support.group);
+  for (const plate::PointMass& mass : scene.masses) acted.add(mass.at);
+  for (const plate::Spring& spring : scene.springs) {
+    acted.add(spring.at);
+    acted.add(spring.to.value_or(""));
+  }
+  for (const plate::Coupling& coupling : scene.couplings) {
+    acted.add(coupling.group);
+    acted.add(coupling.to);
+  }
+  for (const mesh::ElementBlock& block : mesh.blocks)
+    if (block.shape == mesh::Shape::line) acted.add(block.nodes, true);
+  return acted.points();
+}
+
+/// The shells of a mesh by themselves: nothing holds them, and nothing hangs on them.
+plate::System shells_alone(const scene::Scene& scene, const mesh::Mesh& mesh, MPI_Comm comm)
+{
+  mesh::Mesh shells = mesh;
+  std::erase_if(shells.blocks, [](const auto& block) { return !mesh::is_surface(block.shape); });
+  shells.face_nodes.clear();
+  std::vector<char> has_element(shells.positions.size(), 0);
+  for (const mesh::ElementBlock& block : shells.blocks)
+    for (const int node : block.nodes) has_element[std::size_t(node)] = 1;
+  std::vector<int> owners = mesh::node_owners(shells, petsc::size(comm));
+  for (std::size_t i = 0; i < owners.size(); ++i)
+    if (has_element[i] == 0) owners[i] = -1;
+  plate::DofMap dofs =
+      plate::make_dof_map(shells, {.components = scene.components}, owners, petsc::size(comm));
+  return plate::assemble(shells, scene.sections, std::move(dofs), comm);
+}
+
+/// Motions or forces of nodes as vectors of a system.
+/// @param of_nodes  [6 n_nodes x k]
+petsc::Matrix as_vectors(const plate::System& system, const MatrixXd& of_nodes)
+{
+  petsc::Matrix X = linear::uninitialized_dense(system.K, of_nodes.cols());
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(system.K, &first, &last));
+  std::vector<PetscInt> own(std::size_t(last - first));
+  std::iota(own.begin(), own.end(), first);
+  const MatrixXd rows = dof_rows(system.dofs, of_nodes, own);
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArrayWrite(X, &values));
+  std::copy_n(rows.data(), rows.size(), values);
+  petsc::check(MatDenseRestoreArrayWrite(X, &values));
+  return X;
+}
+
+/// The integral of e e^T over the directions e into an element from one of its nodes.
+Eigen::Matrix3d directions(const mesh::FaceAtNode& face)
+{
+  const auto vector = [](const mesh::Vector& v) { return Eigen::Vector3d(v[0], v[1], v[2]); };
+  const Eigen::Vector3d n = vector(face.normal);
+  if (face.edges.empty())
+    return std::numbers::pi * (Eigen::Matrix3d::Identity() - n * n.transpose());
+  const Eigen::Vector3d middle =
+      face.edges.size() == 1
+          ? vector(face.edges[0].inward)
+          : (vector(face.edges[0].along) + vector(face.edges[1].along)).normalized();
+  const Eigen::Vector3d across = n.cross(middle);
+  return 0.5 * (face.angle + std::sin(face.angle)) * middle * middle.transpose() +
+         0.5 * (face.angle - std::sin(face.angle)) * across * across.transpose();
+}
+
+/// What resists a force or moment at a node within elements: f = S u / ln(R / r) at the distance r.
+struct PointStiffness {
+  Eigen::Matrix3d force = Eigen::Matrix3d::Zero(), moment = force;  ///< N/m, N m
+
+  /// Of one element. Near the node stresses are those of a wedge: shear along the normal by kappa G
+  /// t times its angle, and E t, or E t^3 / 12 about an axis across, along each direction.
+  void add(const mesh::FaceAtNode& face, const plate::Material& material, double t)
+  {
+    constexpr double kappa = 5.0 / 6.0;
+    const Eigen::Vector3d n(face.normal[0], face.normal[1], face.normal[2]);
+    const double angle = face.edges.empty() ? 2.0 * std::numbers::pi : face.angle;
+    const double shear = material.young / (2.0 * (1.0 + material.poisson));
+    const Eigen::Matrix3d E = material.young * t * directions(face);
+    Eigen::Matrix3d turned;
+    for (int j = 0; j < 3; ++j) turned.col(j) = n.cross(E.col(j));
+    for (int i = 0; i < 3; ++i) turned.row(i) = n.cross(turned.row(i).transpose()).transpose();
+    force += kappa * shear * t * angle * n * n.transpose() + E;
+    moment += t * t / 12.0 * turned;
+  }
+};
+
+/// Of a halving of the distance; nothing where nothing resists, as about the normal.
+Eigen::Matrix3d growth(const Eigen::Matrix3d& S)
+{
+  constexpr double drilling = 1e-9;
+  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> factor;
+  factor.setThreshold(drilling);
+  factor.compute(S);
+  return std::numbers::ln2 * factor.pseudoInverse();
+}
+
+/// Visits the elements of shells at points.
+/// @param visit  called with the place of the point among the points, block, element and its node
+template <class Visit>
+void of_elements_at(const std::vector<int>& points, const mesh::Mesh& mesh, const Visit& visit)
+{
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    for (int e = 0; mesh::is_surface(block.shape) && e < block.n_elements(); ++e) {
+      const std::span<const int> nodes = block.element_nodes(e);
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const auto point = std::ranges::lower_bound(points, nodes[i]);
+        if (point != points.end() && *point == nodes[i])
+          visit(std::size_t(point - points.begin()), block, e, int(i));
+      }
+    }
+  }
+}
+
+/// The halvings until nodes beside a point are a tenth of the thickness away; at least 1.
+double halvings_left(const scene::Scene& scene, const mesh::Mesh& mesh,
+                     const std::vector<int>& points)
+{
+  constexpr double least = 0.1;
+  const std::vector<double> thickness = thicknesses(scene, mesh);
+  double halvings = 1.0;
+  of_elements_at(points, mesh, [&](std::size_t, const auto& block, int e, int place) {
+    const int node = block.element_nodes(e)[std::size_t(place)];
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const int other : block.element_nodes(e))
+      if (other != node) {
+        nearest = std::min(nearest, mesh::norm(mesh::minus(mesh.positions[std::size_t(other)],
+                                                           mesh.positions[std::size_t(node)])));
+      }
+    halvings = std::max(halvings, std::log2(nearest / (least * thickness[std::size_t(node)])));
+  });
+  return halvings;
+}
+
 /// Halved solids are eight times as many.
 void refuse_large_solids(const SupportedModel& model)
 {
@@ -255,11 +457,77 @@ MeshErrors mesh_errors(const scene::Scene& scene, const SupportedModel& model,
   };
   const bool is_large = model.system.dofs.n_dofs() > most_halved;
   refuse_large_solids(model);
-  if (is_large && plate::can_rise(model.mesh))
+  const bool by_orders = is_large && plate::can_rise(model.mesh);
+  if (by_orders)
     find_by_orders(model.mesh, on, found);
   else
     find_by_halves(scene, model.mesh, on, found);
+  const PointForces forces(scene, model.mesh, PETSC_COMM_WORLD);
+  if (forces.points().empty()) return found;
+  const MatrixXd elastic = motions.topRows(6 * model.mesh.n_nodes()).rightCols(n - n_rigid);
+  forces.add_to(found, forces.lowering(forces.in(elastic, found.omega), found.omega), by_orders);
   return found;
+}
+
+PointForces::PointForces(const scene::Scene& scene, const mesh::Mesh& mesh, MPI_Comm comm)
+    : scene_(scene), mesh_(mesh), points_(acted_on_at_points(scene, mesh))
+{
+  if (points_.empty()) return;
+  const std::vector<int> section = plate::section_of_group(mesh, scene.sections);
+  std::vector<PointStiffness> stiffness(points_.size());
+  of_elements_at(points_, mesh, [&](std::size_t i, const auto& block, int e, int place) {
+    const auto& of = scene.sections[std::size_t(section[std::size_t(block.group[e])])];
+    const double t = plate::value_at(of.thickness, mesh.positions[std::size_t(points_[i])]);
+    stiffness[i].add(
+        mesh::face_at_node(mesh, block, e, place, mesh::node_derivatives(block.shape, block.order)),
+        of.material, t);
+  });
+  for (const PointStiffness& at : stiffness) {
+    of_forces_.push_back(growth(at.force));
+    of_moments_.push_back(growth(at.moment));
+  }
+  shells_ = shells_alone(scene, mesh, comm);
+}
+
+MatrixXd PointForces::in(const MatrixXd& motions, const VectorXd& omega) const
+{
+  const petsc::Matrix X = as_vectors(*shells_, motions);
+  const Index k = motions.cols();
+  const MatrixXd all = mode_motions(shells_->dofs, linear::sparse_product(shells_->K, X), k) -
+                       mode_motions(shells_->dofs, linear::sparse_product(shells_->M, X), k) *
+                           omega.cwiseAbs2().asDiagonal();
+  MatrixXd forces = MatrixXd::Zero(all.rows(), k);
+  for (const int point : points_)
+    forces.middleRows<6>(6 * Index(point)) = all.middleRows<6>(6 * Index(point));
+  return forces;
+}
+
+VectorXd PointForces::lowering(const MatrixXd& forces, const VectorXd& omega) const
+{
+  VectorXd lowered = VectorXd::Zero(omega.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Index row = 6 * Index(points_[i]);
+    for (Index j = 0; j < lowered.size(); ++j) {
+      const Eigen::Vector3d f = forces.block<3, 1>(row, j), m = forces.block<3, 1>(row + 3, j);
+      lowered[j] += f.dot(of_forces_[i] * f) + m.dot(of_moments_[i] * m);
+    }
+  }
+  return lowered.cwiseQuotient(2.0 * omega.cwiseAbs2());
+}
+
+void PointForces::add_to(MeshErrors& found, const VectorXd& per_halving, bool by_orders) const
+{
+  // Beside such a point what does converge does so with the size, and not with its square.
+  constexpr double slower = 0.75 / 0.5;
+  const int order = mesh_.blocks.front().order;
+  const double step = by_orders ? std::log2(1.0 + 1.0 / order) : 1.0;
+  found.per_halving = per_halving;
+  found.halvings = halvings_left(scene_, mesh_, points_);
+  for (Index i = 0; i < found.errors.size(); ++i) {
+    const double lowered = 1.0 - found.finer[i] / found.omega[i];
+    const double rest = lowered != 0.0 ? std::abs(1.0 - step * per_halving[i] / lowered) : 1.0;
+    found.errors[i] = slower * rest * found.errors[i] + found.halvings * per_halving[i];
+  }
 }
 
 mbs_export::OwnCompliances mesh_compliances(const scene::Scene& scene,
@@ -317,19 +585,6 @@ VectorXd extrapolated(const VectorXd& to_finer, const VectorXd& to_coarser)
 VectorXd relative_distance(const VectorXd& omega, const VectorXd& other)
 {
   return (other - omega).cwiseAbs().cwiseQuotient(omega);
-}
-
-/// The least thickness of the shells at each node: free edges have a layer of that width, where the
-/// twisting moment of a thin plate becomes its shear force.
-std::vector<double> thicknesses(const scene::Scene& scene, const mesh::Mesh& mesh)
-{
-  std::vector<double> least(mesh.positions.size(), std::numeric_limits<double>::infinity());
-  for (const plate::ShellSection& section : scene.sections)
-    for (const int node : mesh::find_group(mesh, section.group).nodes) {
-      const auto n = static_cast<std::size_t>(node);
-      least[n] = std::min(least[n], plate::value_at(section.thickness, mesh.positions[n]));
-    }
-  return least;
 }
 
 /// Where an element is, and how large.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "cases/fe_solution.hpp"
@@ -34,7 +35,10 @@ struct MeshErrors {
   Eigen::VectorXd finer;  ///< [k] rad/s, the same modes in the finer model
   /// Of the surface elements, where the mesh takes sizes at places; else empty.
   std::vector<ErrorShare> shares = {};
-
+  /// [k] by how much each halving of the elements lowers the frequency without end, relative; empty
+  /// where nothing acts on shells at single nodes (PointForces)
+  Eigen::VectorXd per_halving = {};
+  double halvings = 0.0;  ///< so many times `per_halving` are part of `errors`
   double largest() const { return errors.size() > 0 ? errors.maxCoeff() : 0.0; }
 };
 
@@ -42,6 +46,9 @@ struct MeshErrors {
 /// model it uses elements of one order more and of one order less instead; their differences show
 /// what the finer one still lacks. Each other model costs one factor and one solution for all
 /// modes.
+/// What acts on a shell at a single node meets a compliance that grows by the same amount with each
+/// halving of the elements, so that a frequency has no limit: its error is then told against
+/// elements whose nodes are a tenth of the thickness apart, below which no plate theory holds.
 /// @param modes  of the model; each gets an estimate
 /// @note   Collective.
 MeshErrors mesh_errors(const scene::Scene& scene, const SupportedModel& model,
@@ -91,6 +98,40 @@ void find_by_halves(const scene::Scene& scene, const mesh::Mesh& mesh, const Mod
 /// Estimates errors with elements of one order more and, if possible, of one order less.
 /// @param found  with the frequencies of the mesh
 void find_by_orders(const mesh::Mesh& mesh, const ModesOn& modes, MeshErrors& found);
+
+/// What acts on shells at single nodes, and what that does to frequencies. The compliance there
+/// grows by the same amount with each halving of the elements, so that nothing converges. Below
+/// nodes a tenth of the thickness apart no plate theory holds: errors are told against such
+/// elements.
+class PointForces {
+ public:
+  /// @note   Collective on `comm`, as `in` is.
+  PointForces(const scene::Scene& scene, const mesh::Mesh& mesh, MPI_Comm comm);
+
+  /// The nodes of shells on which a support, spring, mass, coupling or beam acts, and on no edge of
+  /// the elements there.
+  const std::vector<int>& points() const { return points_; }
+  /// The forces of the shells' surroundings on these nodes in modes: (K - omega^2 M) phi of the
+  /// shells alone.
+  /// @param motions  [6 n_nodes x k]
+  /// @return [6 n_nodes x k], zero elsewhere
+  Eigen::MatrixXd in(const Eigen::MatrixXd& motions, const Eigen::VectorXd& omega) const;
+  /// By how much a halving lowers the frequencies of modes of unit modal mass, relative: a
+  /// compliance that grows by G under a force F lowers omega by F^T G F / (2 omega).
+  /// @param forces  `in` the modes
+  Eigen::VectorXd lowering(const Eigen::MatrixXd& forces, const Eigen::VectorXd& omega) const;
+  /// Tells errors with what such forces leave.
+  /// @param per_halving  `lowering`
+  /// @param by_orders    whether `found.finer` are of elements of one order more
+  void add_to(MeshErrors& found, const Eigen::VectorXd& per_halving, bool by_orders) const;
+
+ private:
+  const scene::Scene& scene_;
+  const mesh::Mesh& mesh_;
+  std::vector<int> points_;
+  std::vector<Eigen::Matrix3d> of_forces_, of_moments_;  ///< m/N, 1/(N m), G of each point
+  std::optional<plate::System> shells_;
+};
 
 /// The shares of the surface elements in the errors of the frequencies.
 /// @param lacking  RefinedModes::lacking

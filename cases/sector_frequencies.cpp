@@ -159,6 +159,50 @@ RefinedModes refined_modes(const KnownHarmonics& known, const SupportedSector& o
                                 lines.middleCols(before + 6, 6).transpose())};
 }
 
+/// By how much a halving of the elements lowers the frequencies, in the order of
+/// frequencies_of(known): each sector takes its forces, and nodes of its cut edges half of theirs.
+VectorXd lowering_of(const KnownHarmonics& known, const PointForces& forces)
+{
+  const mesh::Mesh& mesh = known.sector.model.mesh;
+  const double angle = 2.0 * std::numbers::pi / mesh.sectors.count;
+  const Eigen::Matrix3d turn = cyclic::turn(angle);
+  const auto share = [&](MatrixXd& x, MatrixXd& y, int order) {
+    using Complex = std::complex<double>;
+    const Complex phase = std::polar(1.0, order * angle);
+    for (const auto& [low, high] : mesh.sectors.pairs) {
+      for (const Index part : {0, 3}) {
+        const Index at = 6 * Index(low) + part, next = 6 * Index(high) + part;
+        Eigen::MatrixXcd here = x.middleRows<3>(at).cast<Complex>();
+        here.imag() = y.middleRows<3>(at);
+        Eigen::MatrixXcd there = x.middleRows<3>(next).cast<Complex>();
+        there.imag() = y.middleRows<3>(next);
+        here = 0.5 * (here + std::conj(phase) * (turn.transpose().cast<Complex>() * there));
+        there = phase * (turn.cast<Complex>() * here);
+        x.middleRows<3>(at) = here.real();
+        y.middleRows<3>(at) = here.imag();
+        x.middleRows<3>(next) = there.real();
+        y.middleRows<3>(next) = there.imag();
+      }
+    }
+  };
+  const std::vector<double> own = on_all_ranks(PETSC_COMM_WORLD, [&] {
+    std::vector<double> lines;
+    for (const ModesOfHarmonic& modes : known.modes) {
+      if (modes.omega.size() == 0) continue;
+      MatrixXd x = forces.in(modes.x, modes.omega), y = forces.in(modes.y, modes.omega);
+      share(x, y, modes.order);
+      const VectorXd lowered =
+          modes.weight * (forces.lowering(x, modes.omega) + forces.lowering(y, modes.omega));
+      for (Index i = 0; i < lowered.size(); ++i) {
+        lines.insert(lines.end(),
+                     {modes.omega[i], double(modes.multiplicity), double(modes.order), lowered[i]});
+      }
+    }
+    return lines;
+  });
+  return by_frequency(own, 4).col(3);
+}
+
 /// Nodes of the interface that stand on the axis, which harmonics 0 and 1 know as masters.
 std::vector<std::string> names_on_axis(const scene::Scene& scene, const mesh::Mesh& whole)
 {
@@ -264,6 +308,11 @@ std::optional<MeshErrors> SectorFrequencies::errors_up_to(double omega,
   } catch (const Error&) {  // of a refined mesh, on all ranks alike
     if (mesh_->sectors.count > 1) throw;
     return std::nullopt;
+  }
+  const PointForces forces(scene_, sector_->model.mesh, PETSC_COMM_SELF);
+  if (!forces.points().empty()) {
+    forces.add_to(found, lowering_of({*sector_, known}, forces),
+                  is_large && plate::can_rise(*mesh_));
   }
   return found;
 }

@@ -3,7 +3,8 @@
 Annular Mindlin plates, clamped inside, thick and thin, smooth and with the layer at the free edge, of
 quadrilaterals and triangles; an L-shaped plate, whose modes have a singular corner, against a much finer
 mesh; a beam of Timoshenko elements against a much finer one. All modes with an error above what their
-references tell: the effectivity, estimate over error, lies between 0.5 and 3.
+references tell: the effectivity, estimate over error, lies between 0.5 and 3. Plates that something acts on at
+single nodes, against a mesh with nodes a tenth of the thickness apart: there it is hardly below 1.
 
 Usage: mesh_errors.py PROGRAM_DIR
 """
@@ -23,6 +24,7 @@ THICK = sorted(SINGLE + 2 * PAIRS)
 # Outer radius over thickness -> Hz, three nodal diameters, bending stiffness and mass per area of that disc.
 THIN = {50: 1744.260759688, 100: 1747.463634387, 1000: 1749.563780449}
 LEAST, MOST = 0.5, 3.0
+LEAST_AT_POINTS = 0.95  # a search leaves a tenth of an accuracy
 # Below, what the references lack decides: drilling stiffness, digits of in-plane frequencies.
 SEEN = 2e-6
 
@@ -120,18 +122,58 @@ mesh_errors = {estimated}
 """
 
 
+SPRINGS = """
+[[spring]]
+at = "corners"
+stiffness = { x = 3e7, y = 3e7, z = 3e7 }
+[[mass]]
+at = "corners"
+mass = 1.0
+"""
+HELD = """
+[[support]]
+group = "corners"
+dofs = ["x", "y", "z"]
+"""
+THICKNESS = 0.02  # m, of what is acted on at points
+
+
+def at_points(size, order, what, count, estimated):
+    return f"""
+[mesh]
+generator = "rectangle"
+length = 0.2
+width = 0.15
+element_order = {order}
+element_size = {size!r}
+[material.steel]
+young = 2.1e11
+poisson = 0.3
+density = 7800.0
+[[section]]
+group = "plate"
+type = "shell"
+material = "steel"
+thickness = {THICKNESS}
+{what}
+[modes]
+count = {count}
+mesh_errors = {estimated}
+"""
+
+
 def modes(programs, folder, text):
     (folder / "scene.toml").write_text(text)
     found = summary(programs / "chladni", "modes", folder / "scene.toml", "--output", folder)
     return found["frequencies_Hz"], found.get("errors_of_mesh")
 
 
-def check(name, frequencies, exact, estimates, seen=SEEN):
+def check(name, frequencies, exact, estimates, seen=SEEN, least=LEAST):
     """One line of the table; whether all effectivities are as they should be."""
     errors = [abs(f / e - 1) for f, e in zip(frequencies, exact)]
     ratios = [estimate / error for estimate, error in zip(estimates, errors) if error > seen]
     print(f"{name:44} {max(errors):9.1e} {min(ratios):6.2f} {max(ratios):6.2f}")
-    return LEAST <= min(ratios) and max(ratios) <= MOST
+    return least <= min(ratios) and max(ratios) <= MOST
 
 
 def main(programs):
@@ -160,6 +202,14 @@ def main(programs):
         fine, _ = modes(programs, folder, beam(400, "false"))
         found, estimates = modes(programs, folder, beam(10, "true"))
         good &= check("cantilever of ten Timoshenko elements", found, fine, estimates)
+        # Higher modes go so far that they change places.
+        for name, what, count in (("on springs, with masses", SPRINGS, 8), ("held", HELD, 4)):
+            # Nodes of elements of order 4 are a quarter of their size apart.
+            fine, _ = modes(programs, folder, at_points(0.4 * THICKNESS, 4, what, count, "false"))
+            for order, size in ((2, 0.03), (3, 0.05), (4, 0.05)):
+                found, estimates = modes(programs, folder, at_points(size, order, what, count, "true"))
+                good &= check(f"plate {name} at its corners, order {order}, {size} m", found[-len(estimates):], fine[-len(estimates):],
+                              estimates, 1e-4, LEAST_AT_POINTS)
     return 0 if good else 1
 
 
