@@ -8,7 +8,7 @@ solves by ARPACK with SPOOLES. scipy takes the matrices of Chladni: eigsh with s
 degree on A^T + A in symmetric mode. Seconds and memory are those of whole processes with one thread. A run of the other
 programs that takes --most-s of CPU time is ended, and so many modes and more of that mesh are not tried again. Errors are
 against the exact solid. The large case is reduced by Chladni alone, and its memory compared with the forecast of a run that
-may take hardly any. Writes OUTPUT/reduction_solids.json and .md; cases that are not asked for stay there as they were.
+may take hardly any. Writes OUTPUT/reduction_solids.json and .md; cases and modes that are not asked for stay there as they were.
 """
 import argparse
 import json
@@ -202,7 +202,7 @@ def main():
     result = {"runs": [], **(json.loads(file.read_text()) if file.exists() and not arguments.quick else {}), "machine": run.machine(), "ccx": calculix.version()}
     for case in cases:
         others = other_programs(arguments.most_s)
-        result["runs"] = [r for r in result["runs"] if r["case"] != case]
+        result["runs"] = [r for r in result["runs"] if r["case"] != case or r["modes"] not in modes]
         for count in modes:
             with tempfile.TemporaryDirectory() as name:
                 result["runs"].append(measure(pathlib.Path(name), case, count, exact, dict(others)))
