@@ -188,7 +188,8 @@ std::optional<std::string> note_of_overlap(const scene::Scene& scene, const mesh
       "surfaces that end on the mid-surface of another hold {:.3g} of {:.4g} kg twice, {:.1f} %, "
       "and are longer than they are: a ventilated disc is too heavy and too soft; let ribs end at "
       "the faces, or take solids (docs/how-to/meshes.md, Plates with ribs between them)",
-      overlap.twice, overlap.mass, 100.0 * overlap.twice / overlap.mass);
+      mesh.sectors.count * overlap.twice, mesh.sectors.count * overlap.mass,
+      100.0 * overlap.twice / overlap.mass);
 }
 
 mesh::Mesh mesh_on_all_ranks(const scene::Scene& scene, const ChooseMesh& choose)
