@@ -288,11 +288,32 @@ std::string dof_name(const Dof& dof)
                          : fmt::format("grid {}, component {}", dof.first, dof.second);
 }
 
+/// @throws chladni::Error naming row and column where the triangles differ, or the row whose
+/// diagonal
+///         is none of a free body.
+void check_entries(const MatrixXd& A, const std::vector<Dof>& dofs, const std::string& name)
+{
+  constexpr double digits = 1e-8;  // of sqrt(A_ii A_jj): a field of ten digits
+  constexpr double penalty = 1e30;
+  for (Index i = 0; i < A.rows(); ++i) {
+    if (A(i, i) < 0.0 || A(i, i) >= penalty) {
+      throw Error(fmt::format(
+          "{}: {:.3g} on the diagonal at {}: {}", name, A(i, i), dof_name(dofs[std::size_t(i)]),
+          A(i, i) < 0.0 ? "no body has a negative one" : "take supports out of the model"));
+    }
+    for (Index j = 0; j < i; ++j) {
+      if (std::abs(A(i, j) - A(j, i)) <= digits * std::sqrt(std::abs(A(i, i) * A(j, j)))) continue;
+      throw Error(fmt::format(
+          "{}: {} at row {}, column {}, but {} on the other side of the diagonal", name, A(i, j),
+          dof_name(dofs[std::size_t(i)]), dof_name(dofs[std::size_t(j)]), A(j, i)));
+    }
+  }
+}
+
 /// Both triangles, of which a file may hold one or two equal ones.
 MatrixXd both_triangles(const std::map<std::pair<Dof, Dof>, double>& entries,
                         const std::map<Dof, Index>& place, const std::string& name)
 {
-  constexpr double digits = 1e-8;  // of sqrt(A_ii A_jj): a field of ten digits
   const auto n = static_cast<Index>(place.size());
   MatrixXd A = MatrixXd::Zero(n, n);
   for (const auto& [at, value] : entries) {
@@ -307,9 +328,6 @@ MatrixXd both_triangles(const std::map<std::pair<Dof, Dof>, double>& entries,
     const Index i = place.at(at.second), j = place.at(at.first);
     const auto other = entries.find({at.second, at.first});
     if (other == entries.end()) A(j, i) = value;
-    if (std::abs(A(i, j) - A(j, i)) <= digits * std::sqrt(std::abs(A(i, i) * A(j, j)))) continue;
-    throw Error(fmt::format("{}: {} at row {}, column {}, but {} on the other side of the diagonal",
-                            name, A(i, j), dof_name(at.second), dof_name(at.first), A(j, i)));
   }
   return A;
 }
@@ -331,8 +349,10 @@ Matrices matrices_of_bulk_data(const Superelement& element, const fs::path& file
     matrices.dofs.push_back(dof);
   }
   for (const auto& [name, matrix] : element.matrices) {
-    matrices.of[*role_of(name)] =
-        both_triangles(matrix.entries, place, fmt::format("{}: DMIG {}", file.string(), name));
+    const std::string said = fmt::format("{}: DMIG {}", file.string(), name);
+    MatrixXd A = both_triangles(matrix.entries, place, said);
+    check_entries(A, matrices.dofs, said);
+    matrices.of[*role_of(name)] = std::move(A);
   }
   return matrices;
 }
@@ -359,11 +379,7 @@ Matrices matrices_of_op4(const Superelement& element, const fs::path& file)
           "points (EXTRN, ASET, QSET)",
           file.string(), matrix.name, matrix.A.rows(), matrix.A.cols(), matrices.dofs.size()));
     }
-    const double off = (matrix.A - matrix.A.transpose()).cwiseAbs().maxCoeff();
-    if (!(off <= 1e-8 * matrix.A.cwiseAbs().maxCoeff())) {
-      throw Error(
-          fmt::format("{}: {} is not symmetric, by {:.2g}", file.string(), matrix.name, off));
-    }
+    check_entries(matrix.A, matrices.dofs, fmt::format("{}: {}", file.string(), matrix.name));
     matrices.of[role] = std::move(matrix.A);
   }
   return matrices;
@@ -443,6 +459,26 @@ void describe_grids(const Superelement& element, const Matrices& matrices, const
   add(std::move(all));
   for (const auto& [grid, node] : place)
     add({.name = fmt::format("grid_{}", grid), .nodes = {node}});
+}
+
+/// @throws chladni::Error naming the coordinate that moves most where K or M has a negative energy.
+void check_energies(const mbs_export::ReducedSystem& system, const Matrices& matrices,
+                    const Order& order)
+{
+  constexpr double digits = 1e-6;  // DMIG has ten
+  for (const auto& [A, role] : {std::pair(&system.K, Role::stiffness), {&system.M, Role::mass}}) {
+    const VectorXd scale =
+        A->diagonal().unaryExpr([](double x) { return x > 0.0 ? 1.0 / std::sqrt(x) : 0.0; });
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(
+        MatrixXd(scale.asDiagonal() * *A * scale.asDiagonal()));
+    if (solver.eigenvalues().minCoeff() >= -digits) continue;
+    Index most = 0;
+    solver.eigenvectors().col(0).cwiseAbs().maxCoeff(&most);
+    throw Error(
+        fmt::format("{}: a motion, most of it at {}, has a negative energy: no body has one",
+                    matrices.names.at(role),
+                    dof_name(matrices.dofs[std::size_t(order.rows[std::size_t(most)])])));
+  }
 }
 
 /// Gives the modes unit masses and makes K diagonal among them: omega^2 of K_qq Phi = M_qq Phi
@@ -581,6 +617,7 @@ ImportedSystem imported_system(const std::string& file, const mesh::DeckUnits& u
     system.M = converted(Role::mass);
     system.C = converted(Role::damping);
     system.H = converted(Role::structural);
+    check_energies(system, matrices, order);
     normalise_modes(system, order.n_masters);
     system.title = fs::path(file).filename().string();
     system.provenance.versions =

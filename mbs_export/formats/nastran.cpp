@@ -579,6 +579,8 @@ std::unique_ptr<Op4Reader> op4_reader(const std::string& bytes)
   std::int32_t first = 0;
   if (bytes.size() >= sizeof(first)) std::memcpy(&first, bytes.data(), sizeof(first));
   if (first == header) return std::make_unique<BinaryOp4>(bytes, false);
+  if (first == 2 * header || first == 2 * header << 24)
+    throw Error("is of integers of 64 bits; write it with integers of 32 bits, or formatted");
   if (first == header << 24) return std::make_unique<BinaryOp4>(bytes, true);
   return std::make_unique<FormattedOp4>(bytes);
 }

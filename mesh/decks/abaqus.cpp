@@ -33,9 +33,11 @@ const std::unordered_map<std::string, int>& section_keywords()
 /// Keywords that change nothing of the linear vibrations of isotropic materials.
 const std::set<std::string>& keywords_without_effect()
 {
-  static const std::set<std::string> all{"AMPLITUDE",         "CONDUCTIVITY",  "EXPANSION",
-                                         "ORIENTATION",       "SPECIFIC HEAT", "TIME POINTS",
-                                         "PHYSICAL CONSTANTS"};
+  static const std::set<std::string> all{
+      "AMPLITUDE",   "CONDUCTIVITY",       "CREEP",      "CYCLIC HARDENING",
+      "EXPANSION",   "FRICTION",           "HARDENING",  "ORIENTATION",
+      "PLASTIC",     "PHYSICAL CONSTANTS", "RESTART",    "SPECIFIC HEAT",
+      "TIME POINTS", "SURFACE BEHAVIOR",   "USER FIELD", "SURFACE INTERACTION"};
   return all;
 }
 
@@ -155,9 +157,15 @@ class AbaqusReader {
     const auto reader = readers.find(keyword.name);
     if (reader != readers.end()) return (this->*reader->second)(keyword);
     if (known.contains(keyword.name) || section_keywords().contains(keyword.name)) return;
-    const bool is_temperature = keyword.name == "INITIAL CONDITIONS" && keyword.has("TYPE") &&
-                                keyword.parameter("TYPE") == "TEMPERATURE";
-    if (is_temperature || keywords_without_effect().contains(keyword.name)) {
+    static const std::set<std::string> begins{"TEMPERATURE", "VELOCITY", "DISPLACEMENT"};
+    const bool is_start = keyword.name == "INITIAL CONDITIONS" && keyword.has("TYPE") &&
+                          begins.contains(keyword.parameter("TYPE"));
+    if (keyword.name == "DAMPING") {
+      deck_.notes.push_back(
+          fmt::format("{}: *DAMPING is left out: say damping in [body]", keyword.place));
+      return;
+    }
+    if (is_start || keywords_without_effect().contains(keyword.name)) {
       ++left_out_[keyword.name];
       return;
     }
@@ -376,7 +384,7 @@ class AbaqusReader {
   /// Nodes of TIE NSET, of PIN NSET (of solids, which do not turn), and of the elements of ELSET.
   void rigid_body(const Keyword& keyword)
   {
-    keyword.expect_only({"REF NODE", "TIE NSET", "PIN NSET", "ELSET", "POSITION"});
+    keyword.expect_only({"REF NODE", "TIE NSET", "PIN NSET", "ELSET", "NSET", "POSITION"});
     if (keyword.has("POSITION") && keyword.parameter("POSITION") != "INPUT")
       keyword.refuse("moves its reference node to the centre of mass; take POSITION = INPUT");
     const KeywordRow row{keyword.place, {}};
@@ -385,8 +393,8 @@ class AbaqusReader {
     const auto add = [&](const std::vector<std::int64_t>& more) {
       std::ranges::copy_if(more, std::back_inserter(nodes), [](std::int64_t n) { return n != 0; });
     };
-    if (keyword.has("TIE NSET"))
-      add(abaqus_nodes(keyword, row, keyword.parameter("TIE NSET"), sets_));
+    for (const char* set : {"TIE NSET", "NSET"})
+      if (keyword.has(set)) add(abaqus_nodes(keyword, row, keyword.parameter(set), sets_));
     if (keyword.has("PIN NSET")) {
       add(abaqus_nodes(keyword, row, keyword.parameter("PIN NSET"), sets_));
       if (have_rotations(deck_, nodes))
@@ -603,7 +611,9 @@ class AbaqusDeclarer {
       if (keyword.name == "BEAM SECTION") beam(keyword);
       if (keyword.name == "SOLID SECTION") solid(keyword);
     }
-    check_densities();
+    for (const DeclaredMaterial& material : materials_)
+      if (material.density > 0.0 || all_.uses(material.name))
+        all_.add(material, keyword_of_.at(material.name)->place);
     declare_couplings(deck, units_, holders_, all_);
     for (const Keyword& keyword : model_)
       if (keyword.name == "BOUNDARY") boundary(keyword);
@@ -641,35 +651,32 @@ class AbaqusDeclarer {
         part.expect_only({"TYPE"});
         if (part.has("TYPE") && part.parameter("TYPE").substr(0, 3) != "ISO")
           part.refuse("only TYPE = ISOTROPIC is known");
-        material.young = part.real(only_row(part), 0, "Young's modulus") * units_.stress();
-        material.poisson = part.real_or(only_row(part), 1, "Poisson's ratio", 0.0);
+        const KeywordRow& row = first_temperature(part, 2);
+        material.young = part.real(row, 0, "Young's modulus") * units_.stress();
+        material.poisson = part.real_or(row, 1, "Poisson's ratio", 0.0);
         is_elastic = true;
       } else if (part.name == "DENSITY") {
         part.expect_only({});
-        material.density = part.real(only_row(part), 0, "the density") * units_.density();
-      } else if (!keywords_without_effect().contains(part.name)) {
+        material.density =
+            part.real(first_temperature(part, 1), 0, "the density") * units_.density();
+      } else if (part.name != "DAMPING" && !keywords_without_effect().contains(part.name)) {
         break;
       }
     }
     if (!is_elastic) keyword.refuse(fmt::format("{} has no *ELASTIC", material.name));
-    all_.materials.push_back(material);
+    materials_.push_back(material);
     keyword_of_[material.name] = &keyword;
   }
 
-  /// Materials without a density are no error as long as no element is of them.
-  void check_densities()
+  /// Of values at several temperatures, which stand behind them, those of the first count.
+  const KeywordRow& first_temperature(const Keyword& part, std::size_t n_values)
   {
-    std::erase_if(all_.materials, [&](const DeclaredMaterial& material) {
-      if (material.density > 0.0) return false;
-      if (all_.uses(material.name)) {
-        keyword_of_.at(material.name)
-            ->refuse(fmt::format("{} has no *DENSITY, without which there are no natural "
-                                 "frequencies; give it one, "
-                                 "a small one to what is to have no mass",
-                                 material.name));
-      }
-      return true;
-    });
+    if (part.rows.size() < 2 || Keyword::field(part.rows.front(), n_values).empty())
+      return only_row(part);
+    all_.notes.push_back(fmt::format("{}: *{} has values for {} temperatures; those at {} count",
+                                     part.place, part.name, part.rows.size(),
+                                     Keyword::field(part.rows.front(), n_values)));
+    return part.rows.front();
   }
 
   void shell(const Keyword& keyword)
@@ -735,9 +742,10 @@ class AbaqusDeclarer {
 
   void boundary(const Keyword& keyword)
   {
-    keyword.expect_only({});
+    keyword.expect_only({"AMPLITUDE", "OP", "FIXED"});
     for (const KeywordRow& row : keyword.rows) {
       const std::string& name = row.fields.front();
+      if (Keyword::field(row, 1) == "11") continue;  // a temperature
       const std::string group =
           keyword.is_integer(name) ? "boundary_" + name : name_of_node_set(name, sets_);
       const std::vector<std::int64_t> nodes = abaqus_nodes(keyword, row, name, sets_);
@@ -754,6 +762,7 @@ class AbaqusDeclarer {
   AbaqusSets sets_;
   DeckUnits units_;
   Holders holders_;
+  std::vector<DeclaredMaterial> materials_;
   std::map<std::string, const Keyword*> keyword_of_;  ///< by the name of the material
   Declarations all_;
 };

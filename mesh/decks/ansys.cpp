@@ -568,8 +568,6 @@ void AnsysReader::declare_materials(const DeckUnits& units, Declarations& all) c
     const auto E = value("EX"), rho = value("DENS");
     const auto nu = value("PRXY") ? value("PRXY") : value("NUXY");
     if (!E) refuse("has no modulus EX");
-    if (!rho || !(*rho > 0.0))
-      refuse("has no density DENS, without which there are no natural frequencies");
     const double poisson = nu.value_or(0.3);  // as in Ansys
     const auto check = [&](const char* label, double expected) {
       constexpr double digits = 1e-3;
@@ -582,10 +580,11 @@ void AnsysReader::declare_materials(const DeckUnits& units, Declarations& all) c
     for (const char* label : {"EY", "EZ"}) check(label, *E);
     for (const char* label : {"PRYZ", "PRXZ", "NUYZ", "NUXZ"}) check(label, poisson);
     for (const char* label : {"GXY", "GYZ", "GXZ"}) check(label, *E / (2.0 * (1.0 + poisson)));
-    all.materials.push_back({.name = name,
-                             .young = *E * units.stress(),
-                             .poisson = poisson,
-                             .density = *rho * units.density()});
+    all.add({.name = name,
+             .young = *E * units.stress(),
+             .poisson = poisson,
+             .density = rho.value_or(0.0) * units.density()},
+            place);
   }
 }
 

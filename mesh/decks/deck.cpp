@@ -666,6 +666,16 @@ bool Declarations::has_section(const std::string& group) const
          std::ranges::any_of(solids, is_of_it);
 }
 
+void Declarations::add(const DeclaredMaterial& material, const std::string& place)
+{
+  materials.push_back(material);
+  if (material.density > 0.0) return;
+  notes.push_back(
+      fmt::format("{}: the material has no density and therefore no mass, as static loads need "
+                  "none; natural frequencies do: write it into material.{}",
+                  place, material.name));
+}
+
 bool Declarations::uses(const std::string& material) const
 {
   const auto is_of_it = [&](const auto& section) { return section.material == material; };

@@ -92,6 +92,9 @@ struct Declarations {
   bool has_section(const std::string& group) const;
   /// Whether a section is of the material.
   bool uses(const std::string& material) const;
+  /// Adds a material of a section; a note tells of one without a density.
+  /// @param place  file and line
+  void add(const DeclaredMaterial& material, const std::string& place);
 };
 
 /// The units of length and force of a deck in SI. Its unit of mass follows from that of force and

@@ -48,12 +48,14 @@ using enum Shape;
 
 // Descriptors of membranes, 71 and 74, are exchanged.
 constexpr std::array<ElementRow, 15> rows{{
-    {line, 1, 2, "CBAR CBEAM", "B31 #T3D2", "11 21 22", "SE2", ""},
-    {line, 2, 3, "", "B32 #T3D3", "23 24", "SE3", ""},
-    {triangle, 1, 3, "CTRIA3", "S3 S3R #CPS3 #CPE3 #M3D3", "41 51 61 74 91", "TR3", ""},
+    {line, 1, 2, "CBAR CBEAM", "B31 ~B31R #T3D2", "11 21 22", "SE2", ""},
+    {line, 2, 3, "", "B32 ~B32R #T3D3", "23 24", "SE3", ""},
+    {triangle, 1, 3, "CTRIA3", "S3 S3R S3RS #CPS3 #CPE3 #M3D3", "41 51 61 74 91", "TR3", ""},
     {triangle, 2, 6, "CTRIA6", "S6 STRI65 #CPS6 #CPE6 #M3D6", "42 52 62 72 92", "TR6", ""},
-    {quadrilateral, 1, 4, "CQUAD4", "S4 S4R #CPS4 #CPE4 #M3D4", "44 54 64 71 94", "QU4", "181"},
-    {quadrilateral, 2, 8, "CQUAD8", "S8 S8R #CPS8 #CPE8 #M3D8", "45 55 65 75 95", "QU8", "281"},
+    {quadrilateral, 1, 4, "CQUAD4", "S4 S4R S4RS S4R5 #CPS4 #CPE4 #M3D4", "44 54 64 71 94", "QU4",
+     "181"},
+    {quadrilateral, 2, 8, "CQUAD8", "S8 S8R S8R5 #CPS8 #CPE8 #M3D8", "45 55 65 75 95", "QU8",
+     "281"},
     {quadrilateral, 2, 9, "", "", "45 55 65 75 95", "QU9", ""},
     {tetrahedron, 1, 4, "CTETRA", "C3D4 ~C3D4H", "111", "TE4", "285"},
     {tetrahedron, 2, 10, "CTETRA", "C3D10 ~C3D10H ~C3D10M ~C3D10MH ~C3D10T", "118", "T10",

@@ -134,19 +134,14 @@ class NastranDeclarer {
     return std::ranges::find(deck_.groups, group, &DeckGroup::name) != deck_.groups.end();
   }
 
-  /// Materials without a density are no error as long as no element is of them.
+  /// Of materials of no element, those without a density are left out.
   void materials()
   {
     for (const Card& card : cards_) {
       if (card.name() != "MAT1") continue;
       DeclaredMaterial found = material(card, units_, all_.notes);
       found.density *= mass_factor(cards_);
-      if (found.density > 0.0) all_.materials.push_back(found);
-      if (all_.uses(found.name) && !(found.density > 0.0)) {
-        card.refuse(
-            "has no density (RHO, field 6), without which there are no natural frequencies; give "
-            "it one, a small one to what is to have no mass");
-      }
+      if (found.density > 0.0 || all_.uses(found.name)) all_.add(found, card.place());
     }
   }
 

@@ -240,6 +240,18 @@ def bad_superelements(programs, folder, expected):
     yield from expect("unsymmetric", "\n".join(turned), "DMIG MAAX", "other side of the diagonal")
     labels, K, M = in_millimetres(expected)
     op4 = op4_bytes((("KAA", K), ("MAA", M)), "text_sparse")
+    pch = grids(expected, 1000.0) + "".join(f"ASET,{n},{c + 1}\n" for n, c in labels)
+    K_m, M_m = K[: len(labels), : len(labels)], M[: len(labels), : len(labels)]  # without modes
+    row = f"grid {labels[3][0]}, component {labels[3][1] + 1}"
+    for name, change, words in (("skew", lambda A: np.add(A, A[3, 3] * (np.indices(A.shape) == [[[3]], [[2]]]).all(0)), (row, "other side")),
+                                ("penalty", lambda A: np.where((np.indices(A.shape) == 3).all(0), 1e36, A), (row, "1e+36", "supports")),
+                                ("soft", lambda A: np.where((np.indices(A.shape) == 3).all(0), 0.2 * A, A), ("grid", "negative energy")),
+                                ("negative", lambda A: np.where((np.indices(A.shape) == 3).all(0), -A, A), (row, "negative"))):  # fmt: skip
+        for which, pair in (("KAA", (change(K_m), M_m)), ("MAA", (K_m, change(M_m)))):
+            bad = op4_bytes((("KAA", pair[0]), ("MAA", pair[1])), "binary_sparse")
+            yield from expect(f"{name} {which}", pch, "bad.op4" if name != "soft" else which, which, *words, file="bad.op4", op4=bad)
+    wide = struct.pack("<i", 48) + struct.pack("<4q", 3, 3, 6, 2) + b"KAA".ljust(16) + struct.pack("<i", 48)
+    yield from expect("64 bits", pch, "bad.op4", "64 bits", file="bad.op4", op4=wide)
     yield from expect("other rows", grids(expected, 1000.0) + "ASET,1,1\n", "KAA is", "1 components", file="bad.op4", op4=op4)
     yield from expect("cut off", good, "bad.op4", "ends within a matrix", file="bad.op4", op4=op4[: op4.rindex(b"\n", 0, len(op4) // 3) + 1])
     (folder / "alone.op4").write_bytes(op4)

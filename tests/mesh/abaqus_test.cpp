@@ -357,6 +357,26 @@ TEST(AbaqusSolids, MayEndWithACommaAndHaveWhatVibrationsDoNotNeed)
   EXPECT_GT(declared_by_abaqus(text, 1.0).materials.at(0).density, 0.0);
 }
 
+TEST(AbaqusDeclarations, TakeWhatStaticDecksHave)
+{
+  const std::string text =
+      abaqus_square +
+      "*Restart, write\n*Material, name=Steel\n*Elastic\n210000., 0.3, 20.\n190000., 0.31, 300.\n"
+      "*Plastic\n300., 0., 20.\n*Damping, alpha=2.\n*Shell Section, elset=Plate, "
+      "material=Steel\n2.\n"
+      "*Boundary, amplitude=A\n1, 1, 3\n2, 11, 11, 300.\n";
+  const Declarations declared = declared_by_abaqus(text, 1.0);
+  EXPECT_DOUBLE_EQ(declared.materials.at(0).young, 210000.0);
+  EXPECT_DOUBLE_EQ(declared.materials.at(0).poisson, 0.3);
+  EXPECT_DOUBLE_EQ(declared.materials.at(0).density, 0.0);
+  ASSERT_EQ(declared.supports.size(), 1U);
+  EXPECT_EQ(declared.supports[0].components.size(), 3U);
+  std::string said;
+  for (const std::string& note : declared.notes) said += note + "\n";
+  expect_words(said, {"*ELASTIC has values for 2 temperatures; those at 20. count", "no density",
+                      "material.STEEL", "1 *PLASTIC", "*DAMPING is left out", "1 *RESTART"});
+}
+
 class RefusedSolid : public ::testing::TestWithParam<Refusal> {};
 
 TEST_P(RefusedSolid, IsNamedWithItsLine)
@@ -409,9 +429,6 @@ const std::vector<Refusal> refused_keywords{
     {abaqus_plate + "*Assembly, name=A\n*Instance, name=I, part=P\n*End Instance\n",
      {"line 16", "*INSTANCE", "no part \"P\""}},
     {abaqus_plate + "*Include, input=more.inp\n", {"line 15", "more.inp"}},
-    {abaqus_square + "*Material, name=Steel\n*Elastic\n210000., 0.3\n"
-                     "*Shell Section, elset=Plate, material=Steel\n2.\n",
-     {"*MATERIAL", "STEEL has no *DENSITY"}},
     {abaqus_plate + "*Boundary\n1, 1\n*Step\n*Boundary, op=NEW\n2, 1\n*End Step\n",
      {"line 18", "OP = NEW"}},
     {abaqus_plate + "*Surface, name=S\n17, SPOS\n", {"line 16", "no element 17"}},
@@ -445,8 +462,8 @@ const std::vector<Refusal> refused_keywords{
      {"*ELASTIC", "ISOTROPIC"}},
     {abaqus_plate + "*Material, name=B\n*Elastic\n1., .3\n2., .3, 100.\n",
      {"*ELASTIC", "one data line"}},
-    {abaqus_plate + "*Material, name=B\n*Elastic\n1., .3\n*Plastic\n1., 0.\n",
-     {"*PLASTIC", "not known"}},
+    {abaqus_plate + "*Material, name=B\n*Elastic\n1., .3\n*Hyperelastic\n1., 0.\n",
+     {"*HYPERELASTIC", "not known"}},
     {abaqus_plate + "*Nset, nset=Ref\n1\n*Surface, type=NODE, name=S\n2\n"
                     "*Coupling, constraint name=C, ref node=Ref, surface=S\n*Distributing\n",
      {"*COUPLING", "node 1 belongs to an element"}},

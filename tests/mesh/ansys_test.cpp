@@ -129,6 +129,8 @@ TEST(AnsysDeclarations, AreInSI)
   EXPECT_NEAR(in_mm.materials[0].young, 2.1e11, 1.0);
   EXPECT_EQ(in_mm.materials[0].poisson, 0.3);
   EXPECT_NEAR(in_mm.materials[0].density, 7850.0, 1e-9);
+  expect_words(declared_by_ansys(cube_of_8 + "MP,EX,3,1\nMP,NUXY,3,.3\n", 1e-3).notes.at(0),
+               {"no density", "material.mat_3"});
   ASSERT_EQ(in_mm.solids.size(), 1U);
   EXPECT_EQ(in_mm.solids[0].group, "mat_3");
   EXPECT_EQ(in_mm.solids[0].material, "mat_3");
@@ -169,7 +171,6 @@ const std::vector<Refusal> refused_commands{
      {"line 15", "type 8, which no ET defines"}},
     {cube_of_8 + elements_block(element({3, 1, 1, 1}, 5, {1, 2, 3, 4, 5, 6, 7, 8})), {"twice"}},
     {cube_of_8, {"line 18", "material 3", "EX"}},
-    {cube_of_8 + "MP,EX,3,1\nMP,NUXY,3,.3\n", {"material 3", "DENS"}},
     {cube_of_8 + ansys_steel + "MP,EY,3,1.\n", {"material 3", "EY", "isotropic"}},
     {cube_of_8 + ansys_steel + "MPDATA,R5.0, 2,EX  ,       3, 1,  210000.0, 200000.0\n",
      {"EX of material 3", "temperature"}},

@@ -443,6 +443,14 @@ TEST(NastranDeclarations, HoldTheSetsThatCaseControlChooses)
   EXPECT_NE(unchosen.notes.at(0).find("chooses no SPC"), std::string::npos);
 }
 
+TEST(NastranDeclarations, TellOfAMaterialWithoutADensity)
+{
+  const Declarations declared =
+      declared_by_nastran(nastran_square + "MAT1,9,2.1E5,,.3\nPSHELL,7,9,2.,9,,9\n", 1e-3);
+  EXPECT_EQ(declared.materials.at(0).density, 0.0);
+  expect_words(declared.notes.at(0), {"line ", "no density", "material.mat1_9"});
+}
+
 TEST(NastranDeclarations, HaveMassesTimesTheirFactor)
 {
   const std::string bulk = nastran_plate + "CONM2,3,1,,4.\n,2.,,3.,,,5.\n";
@@ -619,7 +627,6 @@ const std::vector<Refusal> refused_cards{
     {"SPC = 5\nCEND\nBEGIN BULK\n" + nastran_plate + "SPC1,6,3,1\n",
      {"line 1", "CASE SPC", "no SPC 5"}},
     {"CEND\nSPC = 5\nSPC = 6\nBEGIN BULK\n" + nastran_plate, {"line 3", "line 2 chooses SPC = 5"}},
-    {nastran_square + "MAT1,9,2.1E5,,.3\nPSHELL,7,9,2.,9,,9\n", {"MAT1 9", "no density", "RHO"}},
     {nastran_plate + "CBAR,3,5,1,2,0.,0.,1.\nPBAR,5,9,1.,1.,2.,1.\n\n,\n,1.,0.\n",
      {"PBAR 5", "one of its two planes"}},
     {nastran_plate + "GRDSET,,,,,,,1\nGRDSET,,,,,,,2\n", {"GRDSET", "one already"}},
