@@ -170,13 +170,6 @@ class Search {
       }
       trial = next_trial(next, was_kept || !can_compare());
       if (keeps(trial)) continue;
-      if (const std::optional<Trial> larger = slow_from(trial)) {
-        if (std::optional<Trial> other = with_edge_row(*larger)) {
-          trial = std::move(*other);
-          much_larger.reset();
-          continue;
-        }
-      }
       if (much_larger && is_stuck(*much_larger, trial)) break;
       if (!much_larger || trial.n_dofs > twice * much_larger->n_dofs) much_larger = trial;
     }
@@ -193,35 +186,6 @@ class Search {
   static bool is_estimated(const Trial& trial) { return trial.errors.omega.size() > 0; }
   /// As many elements as that should help.
   static constexpr double twice = 2.0;
-  /// A mesh of larger elements than this one, if the error has fallen since by less than half the
-  /// power of the size that is expected, as where elements do not resolve the layer at an edge.
-  std::optional<Trial> slow_from(const Trial& trial) const
-  {
-    constexpr double clearly_finer = 1.2;
-    for (const Trial& larger : trials_) {
-      const double finer = std::sqrt(double(trial.n_dofs) / larger.n_dofs);
-      if (larger.size.order == trial.size.order && larger.size.edge_row == trial.size.edge_row &&
-          larger.size.places.empty() && is_estimated(larger) == is_estimated(trial) &&
-          finer > clearly_finer &&
-          larger.error < trial.error * std::pow(finer, 0.5 * rate_of(trial)))
-        return larger;
-    }
-    return std::nullopt;
-  }
-  /// The same mesh with rows along the edges, where these are left open and take much of its error.
-  std::optional<Trial> with_edge_row(const Trial& trial)
-  {
-    constexpr double much = 0.6;
-    MeshSize with_row = trial.size;
-    with_row.edge_row = least_thickness(scene_);
-    if (!scene_.accuracy->chooses_edge_row || trial.size.edge_row ||
-        !takes_edge_row(scene_.mesh, *with_row.edge_row) || trial.size.size <= *with_row.edge_row)
-      return std::nullopt;
-    std::optional<Trial> other =
-        possible([&] { return is_estimated(trial) ? tried(with_row) : compared(with_row); });
-    if (other && other->error > much * trial.error) other.reset();
-    return other;
-  }
   static double predicted_dofs(const Trial& trial, const MeshSize& next)
   {
     const double finer = trial.size.size / next.size;

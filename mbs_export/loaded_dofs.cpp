@@ -80,7 +80,9 @@ std::vector<SetLoad> default_loads(const ReducedSystem& reduced, const HeldDofs&
 {
   std::vector<SetLoad> loads;
   for (const AttachmentSet& set : reduced.sets) {
-    const bool is_ring = std::ranges::find(rings, set.name, &ContactRing::name) != rings.end();
+    // A ring that the support holds along z is a set as any other.
+    const bool is_ring = std::ranges::find(rings, set.name, &ContactRing::name) != rings.end() &&
+                         !free_nodes(reduced, held, set, 2).empty();
     const auto first = std::ssize(loads);
     for (int component = 0; component < 6; ++component) {
       std::vector<int> nodes = free_nodes(reduced, held, set, component);
@@ -108,11 +110,12 @@ void refuse_no_loads(const ReducedSystem& reduced, const HeldDofs& held)
           continue;
         throw BodyOptionError(
             "keep.tolerance",
-            fmt::format("{}.{} is free at node {}, but nothing would be loaded there: contact "
-                        "rings are loaded along z, and sets by what is drilling at none of their "
-                        "nodes; name the loads by interface_modes",
-                        set.name, component_name(component),
-                        reduced.attachment_nodes[std::size_t(node)].number));
+            fmt::format(
+                "{}.{} is free at node {}, but nothing would be loaded there: sets are loaded "
+                "by what is drilling at none of their nodes; name the loads by "
+                "interface_modes",
+                set.name, component_name(component),
+                reduced.attachment_nodes[std::size_t(node)].number));
       }
     }
   }

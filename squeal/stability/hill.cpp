@@ -121,11 +121,11 @@ Hill::Solved Hill::solved(double speed, const std::optional<GroupsAsked>& asked)
       if (group.doubt == 0.0) error = std::max(error, group.error);
     if (error <= tolerance_) return {std::move(harmonics), std::move(modes), std::move(groups)};
   }
-  throw Error(
-      fmt::format("Hill's method at {:.6g} rad/s: {} harmonics of the rotation are not enough for a "
-                  "growth rate to {:.1e} 1/s; ask for \"rotation-stability\" with "
-                  "rotation_stability = {{ method = \"floquet\" }}",
-                  speed, n_samples_max / 2 * nu, tolerance_));
+  throw Error(fmt::format(
+      "Hill's method at {:.6g} rad/s: {} harmonics of the rotation are not enough for a "
+      "growth rate to {:.1e} 1/s; ask for \"rotation-stability\" with "
+      "rotation_stability = {{ method = \"floquet\" }}",
+      speed, n_samples_max / 2 * nu, tolerance_));
 }
 
 HillExponents Hill::exponents_of(double speed, const std::optional<GroupsAsked>& asked) const

@@ -61,8 +61,8 @@ class Hill {
   /// @throws chladni::Error when K = 512 nu is not sufficient.
   HillExponents exponents(double speed, std::optional<Eigen::Index> n_least_stable = {}) const;
 
-  /// The exponents of all motions; those not expected to grow are estimates by the second order of the
-  /// harmonics, in a small part of the time.
+  /// The exponents of all motions; those not expected to grow are estimates by the second order of
+  /// the harmonics, in a small part of the time.
   HillExponents followable(double speed) const;
 
   /// The motions that grow most, up to `n`, the first of them and others that grow. Of motions that

@@ -67,8 +67,8 @@ class TurningMotions {
   bool are_of(const FlexibleDisc& brake, const StabilityCase& search) const;
 
   /// The table of the motions with a frequency in the band. It has no families of modes, shares and
-  /// works, because these need one shape for each motion. Where a motion is not expected to grow its exponent
-  /// is an estimate by the second order of the harmonics.
+  /// works, because these need one shape for each motion. Where a motion is not expected to grow
+  /// its exponent is an estimate by the second order of the harmonics.
   /// @throws chladni::Error as Hill's method.
   StabilityTable table(const std::optional<FrequencyBand>& band);
 
