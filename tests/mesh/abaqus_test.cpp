@@ -373,6 +373,7 @@ TEST(AbaqusDeclarations, TakeWhatStaticDecksHave)
   EXPECT_EQ(declared.supports[0].components.size(), 3U);
   std::string said;
   for (const std::string& note : declared.notes) said += note + "\n";
+  for (const std::string& note : deck_of_abaqus(text).notes) said += note + "\n";
   expect_words(said, {"*ELASTIC has values for 2 temperatures; those at 20. count", "no density",
                       "material.STEEL", "1 *PLASTIC", "*DAMPING is left out", "1 *RESTART"});
 }

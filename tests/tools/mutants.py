@@ -124,6 +124,9 @@ EQUIVALENT = [
     ("plate/dofs/couplings.cpp", "ranks[reference] = std::min(ranks[reference], owners[node]);", None, "which of the ranks has the reference node"),
     ("scene/read_sound.cpp", '.count = table.integer("count", {.at_least = 1.0})};', '.count = table.integer("count", {.at_least = 0.5})};',
      "no whole number lies between"),
+    ("squeal/motion/dormand_prince.cpp", "constexpr double safety = 0.9, shrink_max = 0.2, grow_max = 6.0;", None,
+     "how fast steps grow; each of them keeps the tolerance"),
+    ("squeal/brake/disc.cpp", "(alternating[i] > whole[i] ? alternates : moves)[std::size_t(i)] = 1;", None, "no two parts are the same"),
 ]  # fmt: skip
 
 RELATIONS = {"<": ("<=", ">="), "<=": ("<", ">"), ">": (">=", "<="), ">=": (">", "<"), "==": ("!=",), "!=": ("==",),
