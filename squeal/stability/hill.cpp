@@ -105,13 +105,13 @@ struct Hill::Solved {
   std::vector<NearGroup> groups;
 };
 
-Hill::Solved Hill::solved(double speed, const std::optional<GroupsAsked>& asked) const
+Hill::Solved Hill::solved(double speed, const std::optional<GroupsAsked>& asked, Index finer) const
 {
   TurningHarmonics harmonics = this->harmonics(speed);
   const int nu = std::max(1, harmonics.nu);
   const Eigen::Index highest = harmonics.highest / nu;
   // The harmonics of the corrections, three eighths of the samples, hold those of the equations.
-  const Index first = std::min(n_samples_max, power_of_two(8 * highest / 3 + 1));
+  const Index first = std::min(n_samples_max, finer * power_of_two(8 * highest / 3 + 1));
   for (Index N = first; 2 * highest < N && N <= n_samples_max; N *= 2) {
     require_room(nu * speed, harmonics.A_0.rows(), N);
     TurningModes modes = turning_modes(harmonics, N);
@@ -194,14 +194,42 @@ Eigen::MatrixXcd backwards(const Eigen::MatrixXcd& z)
   return turned;
 }
 
+/// The part of the motions in the harmonics beyond three eighths of the samples, which lack those
+/// that follow.
+double unresolved(const FloquetMotions& motions)
+{
+  double largest = 0.0;
+  for (const auto* of : {&motions.right, &motions.left})
+    for (const Eigen::MatrixXcd& x : *of) {
+      const AngleHarmonics c = harmonics_of(AngleSamples(x));
+      double last = 0.0;
+      for (Index k = 0; k < c.cols(); ++k)
+        if (8 * std::abs(order_of(k, c.cols())) > 3 * c.cols()) last += c.col(k).squaredNorm();
+      largest = std::max(largest, std::sqrt(last) / c.norm());
+    }
+  return largest;
+}
+
 }  // namespace
 
 FloquetMotions Hill::motions(double speed, Index n, std::optional<double> omega) const
 {
+  // An exponent has the second power of what a motion lacks, and needs fewer samples.
+  constexpr double resolved = 1e-9;
   constexpr Index about_a_limit = 5;  // where others may grow as little
-  constexpr double same_frequency = 1e-3;
   const GroupsAsked asked{.least_stable = omega ? std::max(n, about_a_limit) : n};
-  const Solved found = solved(speed, asked);
+  for (Index finer = 1;; finer *= 2) {
+    const Solved found = solved(speed, asked, finer);
+    FloquetMotions motions = motions_of(found, asked, n, omega);
+    const Index N = found.modes.B.cols();
+    if (N == 1 || N == n_samples_max || unresolved(motions) < resolved) return motions;
+  }
+}
+
+FloquetMotions Hill::motions_of(const Solved& found, const GroupsAsked& asked, Index n,
+                                std::optional<double> omega) const
+{
+  constexpr double same_frequency = 1e-3;
   const TurningModes& modes = found.modes;
   const std::vector<NearGroup> left_groups = near_groups(adjoint_of(modes), tolerance_, asked);
   const auto of_left = ordered_exponents(left_groups, modes.step);

@@ -91,7 +91,10 @@ class Hill {
 
  private:
   struct Solved;
-  Solved solved(double speed, const std::optional<GroupsAsked>& asked) const;
+  Solved solved(double speed, const std::optional<GroupsAsked>& asked,
+                Eigen::Index finer = 1) const;
+  FloquetMotions motions_of(const Solved& found, const GroupsAsked& asked, Eigen::Index n,
+                            std::optional<double> omega) const;
   HillExponents exponents_of(double speed, const std::optional<GroupsAsked>& asked) const;
   TurningHarmonics harmonics(double speed) const;
   TurningBrake brake(double speed) const { return brake(options_, speed); }
