@@ -17,6 +17,7 @@
 
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/stability/hill.hpp"
 
 namespace chladni::squeal {
