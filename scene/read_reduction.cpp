@@ -52,10 +52,6 @@ void check_interface_node(const Table& interface, std::size_t i, const Scene& sc
 std::vector<std::string> read_interface(const Table& root, const Scene& scene)
 {
   const Table interface = root.table("interface");
-  if (interface.has("dofs")) {
-    interface.refuse("dofs",
-                     "not available yet; all six DOFs of each node are masters, take it out");
-  }
   std::vector<std::string> nodes = interface.texts("nodes");
   if (nodes.empty()) interface.refuse("nodes", "must name at least one ring, edge or coupling");
   for (std::size_t i = 0; i < nodes.size(); ++i) check_interface_node(interface, i, scene);

@@ -18,7 +18,6 @@ constexpr Key reduction_rows[] = {
     {"interface.rings.harmonics", integer, "required",
      "highest harmonic, cos and sin of six components each; half of the ring's nodes at most",
      at_least(1)},
-    {"interface.dofs", texts, "all six", "not available yet"},
     {"reduce", table, "required for a reduction without `accuracy`",
      "[theory](../explanation/theory.md)"},
     {"reduce.method", word, "auto with a tolerance, else required",
