@@ -546,6 +546,20 @@ MeshChoice split_mesh(const scene::Scene& supported, const MeshChoice& own, cons
   refuse_splits(scene, best);
 }
 
+/// A mesh of solids is not split: halves are eight times as many. At edges and bores errors fall
+/// with the square of the size at most.
+[[noreturn]] void refuse_solids(const scene::Scene& scene, double error)
+{
+  const double most = share_of_mesh * scene.accuracy->error;
+  const auto [reached, may] = told_apart(error, most);
+  throw Error(fmt::format(
+      "{}: accuracy.error = {:.6g}: the mesh may have {} of it, and this one of solids has an "
+      "error of {} up to {:.6g} Hz: take elements of {:.2g} times this size, or a row of small "
+      "ones along the edges{}",
+      scene.path, scene.accuracy->error, may, reached, scene.accuracy->up_to_Hz,
+      0.95 * std::sqrt(most / error), or_ask_for_less(error)));
+}
+
 MeshChoice own_mesh(const scene::Scene& supported, const scene::Scene& scene,
                     const linear::SolverOptions& solver, Phases& phases)
 {
@@ -555,10 +569,11 @@ MeshChoice own_mesh(const scene::Scene& supported, const scene::Scene& scene,
       .errors = MeshFrequencies(supported, mesh).errors_up_to(two_pi * range_of(scene), solver)};
   if (!scene.accuracy) return choice;
   if (choice.errors->largest() <= share_of_mesh * scene.accuracy->error) {
-    tell_choice(choice, described({}, *scene.mesh.file) + told_shape(mesh));
+    tell_choice(choice, described({}, scene.mesh.file.value_or("the mesh")) + told_shape(mesh));
     return choice;
   }
   refuse_points(scene, *choice.errors);
+  if (!scene.solids.empty()) refuse_solids(scene, choice.errors->largest());
   return split_mesh(supported, choice, mesh, solver, phases);
 }
 
@@ -590,7 +605,8 @@ MeshChoice chosen_mesh(const scene::Scene& scene, const std::vector<plate::Suppo
   phases.begin("errors of the mesh");
   scene::Scene supported = scene;
   supported.supports = supports;
-  if (!scene.accuracy || !has_size(scene.mesh)) return own_mesh(supported, scene, solver, phases);
+  if (!scene.accuracy || !has_size(scene.mesh) || !scene.solids.empty())
+    return own_mesh(supported, scene, solver, phases);
   FoundMesh found = search_mesh(supported, solver, phases);
   MeshChoice choice{.scene = scene, .errors = std::move(found.errors)};
   set_size(choice.scene.mesh, found.size);

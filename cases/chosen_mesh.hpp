@@ -26,8 +26,9 @@ std::vector<plate::Support> supports_of(const scene::Scene& scene);
 
 /// With `accuracy`, the cheapest mesh found that keeps it: coarse meshes of all available orders,
 /// with and without rows of elements at the edges, show which size each would need, and the best
-/// one is refined until its estimated error is small enough. Without `accuracy`, the scene's own
-/// mesh, with the errors of its frequencies if the scene asks for them.
+/// one is refined until its estimated error is small enough. Of solids, the scene's own mesh if it
+/// keeps the accuracy. Without `accuracy`, the scene's own mesh, with the errors of its frequencies
+/// if the scene asks for them.
 /// @param supports  under which the frequencies are meant
 /// @note   Collective.
 /// @throws chladni::Error when no mesh keeps the accuracy, with the error of the best one.

@@ -62,14 +62,14 @@ double end_of(const Eigen::VectorXd& omega)
   return 1.001 * omega[omega.size() - 1] / (2.0 * std::numbers::pi);
 }
 
-struct Trial {
+struct ComparedTrial {
   reduce::ReduceOptions how;
   std::string asked;
 };
 
-std::vector<Trial> all_trials(const ReductionTrials& trials, double up_to_Hz)
+std::vector<ComparedTrial> all_trials(const ReductionTrials& trials, double up_to_Hz)
 {
-  std::vector<Trial> all{{.how = {.method = Method::guyan}, .asked = ""}};
+  std::vector<ComparedTrial> all{{.how = {.method = Method::guyan}, .asked = ""}};
   for (const Method method : {Method::craig_bampton, Method::mixed_interface, Method::rubin})
     for (const int modes : trials.modes) {
       all.push_back(
@@ -111,7 +111,7 @@ void compare(const mbs_export::ReducedSystem& system, const std::vector<std::str
   if (told.size() >= omega.size()) row.told = largest_or_zero(told.head(omega.size()));
 }
 
-ComparedReduction reduced_by(const scene::Scene& scene, const Trial& trial,
+ComparedReduction reduced_by(const scene::Scene& scene, const ComparedTrial& trial,
                              const linear::SolverOptions& solver, const Eigen::VectorXd& omega)
 {
   ComparedReduction row{.method = std::string(reduce::name_of(trial.how.method)),
@@ -167,7 +167,7 @@ ReductionComparison compare_reductions(const scene::Scene& asked, const Reductio
                             .modes_cpu_s = sum_of_ranks(phases.time_of("modes").cpu_s),
                             .reductions = {}};
   scene = bare(std::move(scene));
-  const std::vector<Trial> all = all_trials(trials, end_of(found.omega));
+  const std::vector<ComparedTrial> all = all_trials(trials, end_of(found.omega));
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (progress) progress("reductions", double(i) / double(all.size()));
     found.reductions.push_back(reduced_by(scene, all[i], solver, found.omega));

@@ -166,7 +166,7 @@ void check_elements(const scene::Scene& scene, const mesh::Mesh& mesh)
 mesh::Mesh mesh_scene(const scene::Scene& scene)
 {
   mesh::Mesh mesh = mesh::generate(scene.mesh);
-  if (!scene.accuracy || has_size(scene.mesh)) return mesh;
+  if (!scene.accuracy || has_size(scene.mesh) || !scene.solids.empty()) return mesh;
   take_edges_of_nodes(mesh, scene.mesh);
   const auto halvings = static_cast<int>(std::lround(-std::log2(scene.mesh.size_factor)));
   return split(std::move(mesh), {.order = scene.mesh.element_order, .halvings = halvings});

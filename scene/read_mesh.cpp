@@ -197,6 +197,15 @@ mesh::SectorSearch read_sector_search(const Table& root, const Table& mesh)
                               : mesh::SectorSearch::none;
 }
 
+/// The mesh of solids is the scene's, whose error `accuracy` estimates.
+bool has_solids(const Table& root)
+{
+  if (!root.has("section")) return false;
+  return std::ranges::any_of(root.tables("section"), [](const Table& section) {
+    return section.has("type") && section.is_text("type") && section.text("type") == "solid";
+  });
+}
+
 }  // namespace
 
 int read_sectors(const Table& mesh)
@@ -240,7 +249,7 @@ std::vector<mesh::RingOptions> read_rings(const Table& mesh, const std::vector<s
 mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path)
 {
   const Table mesh = root.table("mesh");
-  const Size size = root.has("accuracy") ? Size::chosen : Size::given;
+  const Size size = root.has("accuracy") && !has_solids(root) ? Size::chosen : Size::given;
   const bool is_file = mesh.only_one_of({"generator", "file"}) == "file";
   mesh::MeshOptions options =
       is_file ? read_file(mesh, size, scene_path) : read_generator(mesh, size);

@@ -96,17 +96,6 @@ std::vector<std::string> notes_of(const Table& root, const Scene& scene)
   return notes;
 }
 
-/// What is computed of shells and beams alone.
-void refuse_beside_solids(const Table& root, const Scene& scene)
-{
-  if (scene.solids.empty()) return;
-  if (scene.accuracy) {
-    root.refuse("accuracy",
-                "is for shells and beams; give solids a mesh, and mesh_errors = true in [reduce] "
-                "estimates what it lets their frequencies be off");
-  }
-}
-
 /// What needs elements.
 void refuse_beside_matrices(const Table& root, const Scene& scene)
 {
@@ -190,7 +179,6 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
     scene.stiffening = read_stiffening(root, scene);
     scene.sylvester = read_sylvester(root);
   }
-  refuse_beside_solids(root, scene);
   refuse_beside_matrices(root, scene);
   read_what_follows(root, scene);
   // Dampers and loss factors of the model are not lost when the body says nothing of damping.

@@ -9,7 +9,8 @@ constexpr Key mesh_rows[] = {
     {"name", text, "disc", "stem of the files that the programs write; letters, digits, _ and -"},
     {"title", text, "the name", "for people"},
     {"accuracy", table, "as mesh and [reduce] are",
-     "chooses the mesh and the reduction; [how](../how-to/meshes.md#a-mesh-for-an-accuracy)"},
+     "chooses the mesh, but of solids, and the reduction; "
+     "[how](../how-to/meshes.md#a-mesh-for-an-accuracy)"},
     {"accuracy.error", number, "required",
      "of each natural frequency of the body under `body.fixed`, relative, of mesh and reduction "
      "together",
@@ -58,7 +59,7 @@ constexpr Key mesh_rows[] = {
     {"mesh.points", tables, "none", "beam: nodes with a name"},
     {"mesh.points.name", text, "required", "of the node"},
     {"mesh.points.distance", number, "required", "from the start", not_negative("m")},
-    {"mesh.element_size", number, "required without `accuracy`; .step files too",
+    {"mesh.element_size", number, "required without `accuracy`, and of solids; .step files too",
      "about that; at most the width of the body", positive("m")},
     {"mesh.element_order", integer, "3, of beam 1, chosen with `accuracy`; .geo and .step too",
      "of quadrilaterals, triangles and lines; shells of order 4 are quadrilaterals (a structured "

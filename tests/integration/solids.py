@@ -485,6 +485,29 @@ def rings_on_faces(programs, folder, mpirun):
             yield f"rings change the {key} of the mesh: {with_rings}, without {without}"
 
 
+def accuracy(programs, folder):
+    """Of the mesh that the scene gives: refused with the size that would do, or kept, by mesh, reduction and body together."""
+    example = (Path(__file__).parents[2] / "examples/solid_disc/scene.toml").read_text()
+    asked = example[: example.index("[reduce]")] + "[body]\nfixed = ['hub']\n"
+    asked = asked.replace("[mesh]", "accuracy = { error = 1e-2, up_to_Hz = 5000 }\n\n[mesh]")
+    model = re.sub(r"rings = \[.*?\n\]", "", example[: example.index("[interface]")], flags=re.DOTALL)
+    model += '[[support]]\ngroup = "hub"\ntype = "clamped"\n[modes]\ncount = 24\n'
+    rows = lambda scene, width: scene.replace("element_size =", f"edge_row = {width}\nelement_size =")
+    (folder / "asked.toml").write_text(asked)
+    said = run(programs / "chladni", "run", folder / "asked.toml", "--output", folder, "--overwrite", code=1)
+    if "take elements of 0.56 times this size" not in said:
+        yield f"an accuracy of solids that the mesh has not: {said!r}"
+    (folder / "asked.toml").write_text(rows(asked, 0.007))
+    said = run(programs / "chladni", "run", folder / "asked.toml", "--output", folder, "--overwrite")
+    told = float(re.search(r"estimated error of the mesh (\S+)", said)[1])
+    of_mesh = frequencies(programs, folder, rows(model, 0.007))[1]
+    finer = frequencies(programs, folder, rows(model, 0.002).replace("= 0.024", "= 0.016"))[1]
+    off = max(abs(f / g - 1.0) for f, g in zip(of_mesh, finer) if g < 5000.0)
+    print(f"accuracy of solids: error of the mesh {off:.1e}, told {told:.1e}")
+    if not off < told < 3.0 * off:
+        yield f"accuracy of solids: error {off:.2e}, told {told:.2e}"
+
+
 def brake(programs, folder):
     """examples/brake with a disc of solids, which has rings in both faces, squeals as with one of shells."""
     source = Path(__file__).parents[2] / "examples/brake"
@@ -541,6 +564,7 @@ def failures(programs, mpirun, folder):
     yield from faces(programs, folder)
     yield from calculix(programs, folder)
     yield from example(programs, folder)
+    yield from accuracy(programs, folder)
     yield from few_ring_nodes(programs, folder)
     yield from brake(programs, folder)
     yield from rings_on_faces(programs, folder, mpirun)

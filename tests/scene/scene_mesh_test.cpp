@@ -189,6 +189,18 @@ TEST(SceneAccuracy, StandsForMeshAndReduction)
   EXPECT_EQ(said.body.keep.count, 7);
 }
 
+TEST(SceneAccuracy, OfSolidsLeavesTheirMeshToTheScene)
+{
+  std::string text = accurate("element_size = 0.02\nextrude = { from = 0.0, to = 0.02 }\n");
+  text.replace(text.find("type = \"shell\""), 14, "type = \"solid\" ");
+  text.erase(text.find("thickness = 0.02\n"), 17);
+  const Scene scene = parse_scene(text, "scene.toml");
+  EXPECT_EQ(scene.mesh.annulus->element_size, 0.02);
+  EXPECT_EQ(scene.reduce.method, reduce::Method::automatic);
+  text.erase(text.find("element_size = 0.02\n"), 20);
+  EXPECT_NE(error_of(text).find("element_size"), std::string::npos) << error_of(text);
+}
+
 TEST(SceneAccuracyError, NamesWhatItChoosesItself)
 {
   const auto starts = [](const std::string& text, const std::string& with) {
