@@ -6,8 +6,10 @@
 #include <map>
 #include <numbers>
 
+#include "mesh/extrude.hpp"
 #include "mesh/generators.hpp"
 #include "surface.hpp"
+#include "tests/plate/square_plate.hpp"
 
 /// Small generated meshes, and what there is to measure on them.
 namespace chladni::mesh::testing {
@@ -124,5 +126,35 @@ class Generated : public ::testing::TestWithParam<std::tuple<Pattern, int>> {
 
 inline const auto all_patterns =
     ::testing::Values(Pattern::structured, Pattern::unstructured, Pattern::triangles);
+
+/// A block [-1, 1] x [-1, 1] x [-0.1, 0.1] of four by four hexahedra, or of wedges.
+/// @param side  -1: over surfaces that look down
+inline Mesh block_about_z(int order, Shape shape, int layers = 1, double side = 1.0)
+{
+  Mesh flat = plate::testing::rectangle({.a = 2.0, .b = 2.0, .n_x = 4, .n_y = 4, .order = order});
+  for (auto& x : flat.positions) x = {side * (x[0] - 1.0), x[1] - 1.0, x[2]};
+  const ElementBlock quads = flat.blocks[0];
+  if (shape == Shape::wedge) {
+    ElementBlock halves{.shape = Shape::triangle,
+                        .order = order,
+                        .nodes_per_element = (order + 1) * (order + 2) / 2,
+                        .numbers = {},
+                        .nodes = {},
+                        .group = {}};
+    for (int e = 0; e < 2 * quads.n_elements(); ++e) {
+      const auto nodes = quads.element_nodes(e / 2);
+      for (int j = 0; j <= order; ++j)
+        for (int i = 0; i <= order - j; ++i) {
+          const int place = j * (order + 1) + i;
+          halves.nodes.push_back(
+              nodes[std::size_t(e % 2 == 0 ? place : (order + 1) * (order + 1) - 1 - place)]);
+        }
+      halves.numbers.push_back(e + 1);
+      halves.group.push_back(quads.group[0]);
+    }
+    flat.blocks[0] = halves;
+  }
+  return extruded(flat, {.from = -0.1, .to = 0.1, .layers = layers}, {});
+}
 
 }  // namespace chladni::mesh::testing

@@ -1,8 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <numbers>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "common/confinement/helper_process.hpp"
 #include "common/error.hpp"
@@ -12,6 +18,7 @@
 namespace chladni::mesh {
 namespace {
 
+using testing::block_about_z;
 using testing::hat_options;
 using testing::radius;
 
@@ -111,6 +118,82 @@ TEST(Rings, SayHowManyOfTheirNodesAreThere)
   const std::string error = error_of_generator([&] { add_rings(mesh, std::span(&ring, 1)); });
   EXPECT_NE(error.find("7 of its 8 nodes are there"), std::string::npos) << error;
   EXPECT_NE(error.find("angle 90 degrees"), std::string::npos) << error;
+}
+
+TEST(RingsOnFaces, AreMeansOfTheFacesUnderTheirNodes)
+{
+  for (const auto& [shape, order] : {std::pair{Shape::hexahedron, 1},
+                                     {Shape::hexahedron, 2},
+                                     {Shape::hexahedron, 3},
+                                     {Shape::wedge, 2}}) {
+    for (const double width : {0.0, 0.3}) {
+      Mesh mesh = block_about_z(order, shape);
+      const int n = mesh.n_nodes();
+      const std::int64_t last = std::ranges::max(mesh.node_numbers);
+      const RingOptions ring{
+          .name = "seat", .radius = 0.6, .nodes = 8, .z = 0.1, .on = RingOn::face, .width = width};
+      add_rings(mesh, std::span(&ring, 1));
+      ASSERT_EQ(mesh.face_nodes.size(), 8u);
+      EXPECT_EQ(find_group(mesh, "seat").nodes.size(), 8u);
+      EXPECT_EQ(mesh.node_numbers.back(), last + 8);
+      // Sides of 0.5 m over the order, halved: midpoints of a grid that is about as fine.
+      const double side = 2.0 * std::numbers::pi * 0.6 / 8.0, fine = 0.25 / order;
+      const double n_r = std::ceil(0.3 / fine), n_t = std::ceil(side / fine);
+      for (int k = 0; k < 8; ++k) {
+        const FaceNode& at = mesh.face_nodes[std::size_t(k)];
+        EXPECT_EQ(at.node, n + k);
+        const double angle = std::numbers::pi / 4.0 * k, c = std::cos(angle), s = std::sin(angle);
+        double sum = 0.0, radial = 0.0, across = 0.0;
+        Vector mean{};
+        for (std::size_t i = 0; i < at.nodes.size(); ++i) {
+          const Vector& x = mesh.positions[std::size_t(at.nodes[i])];
+          const double w = at.weights[i], by_r = x[0] * c + x[1] * s - 0.6,
+                       by_t = x[1] * c - x[0] * s;
+          EXPECT_NE(w, 0.0);
+          sum += w;
+          for (std::size_t d = 0; d < 3; ++d) mean[d] += w * x[d];
+          radial += w * by_r * by_r;
+          across += w * by_t * by_t;
+        }
+        EXPECT_NEAR(sum, 1.0, 1e-12);
+        EXPECT_LT(norm(minus(mean, {0.6 * c, 0.6 * s, 0.1})), 1e-12);
+        EXPECT_LT(norm(minus(mesh.positions[std::size_t(at.node)], mean)), 1e-12);
+        if (order == 1) continue;
+        // Faces of a higher order hold squares; their mean over midpoints of n rows.
+        const double part = width > 0.0 ? 1.0 : 0.0;
+        EXPECT_NEAR(radial, part * 0.3 * 0.3 / 12.0 * (1.0 - 1.0 / (n_r * n_r)), 1e-12);
+        EXPECT_NEAR(across, part * side * side / 12.0 * (1.0 - 1.0 / (n_t * n_t)), 1e-12);
+      }
+    }
+  }
+}
+
+TEST(RingsOnFaces, NeedAPlaneFaceOfSolidsAllAround)
+{
+  const auto said = [](const RingOptions& ring, Mesh mesh = block_about_z(2, Shape::hexahedron)) {
+    return error_of_generator([&] { add_rings(mesh, std::span(&ring, 1)); });
+  };
+  RingOptions ring{.name = "seat", .radius = 0.6, .nodes = 8, .on = RingOn::face};
+  EXPECT_NE(
+      said(ring).find("radius 0.6 m, angle 0 degrees it needs a face, but the faces there are "
+                      "at z = -0.1, 0.1 m; say which"),
+      std::string::npos)
+      << said(ring);
+  ring.z = 0.1 + 0.5e-6;
+  EXPECT_EQ(said(ring), "no error");
+  ring.z = 0.1 + 0.7e-6;  // a millionth of the radius is no other plane
+  EXPECT_NE(said(ring).find("at z = -0.1, 0.1 m"), std::string::npos) << said(ring);
+  ring.z = 0.1;
+  ring.radius = 1.1;
+  EXPECT_NE(said(ring).find("angle 0 degrees it needs a face at z = 0.1 m, but there is no face"),
+            std::string::npos)
+      << said(ring);
+  ring.radius = 0.9;
+  ring.width = 0.29;  // three rows of points, 0.097 m apart
+  EXPECT_EQ(said(ring), "no error");
+  ring.width = 0.31;  // beyond the edge
+  EXPECT_NE(said(ring).find("there is no face of solids"), std::string::npos) << said(ring);
+  EXPECT_NE(said(ring, circle_with_a_node_off(0.0)).find("the mesh has none"), std::string::npos);
 }
 
 /// Another program in the place of the mesher.

@@ -83,6 +83,51 @@ TEST(Sector, NamesANodeOfTheSecondEdgeThatTheFirstDoesNotHave)
   EXPECT_NE(message.find("do not match: node 4 (0, 1.5, 0), turned"), std::string::npos) << message;
 }
 
+/// A quarter of a block around the z axis, whose second cut face has a node more than the first.
+/// @param angle  of the edge between its two parts, rad
+Mesh quarter_of_wedges(double angle)
+{
+  Mesh mesh;
+  for (const double z : {0.0, 1.0}) {
+    mesh.positions.insert(mesh.positions.end(), {{1, 0, z}, {2, 0, z}, {0, 2, z}});
+    mesh.positions.push_back({1.4 * std::cos(angle), 1.4 * std::sin(angle), z});
+    mesh.positions.push_back({0, 1, z});
+  }
+  for (int i = 1; i <= 10; ++i) mesh.node_numbers.push_back(i);
+  mesh.blocks = {{.shape = Shape::wedge,
+                  .order = 1,
+                  .nodes_per_element = 6,
+                  .numbers = {1, 2, 3},
+                  .nodes = {0, 1, 3, 5, 6, 8, 1, 2, 3, 6, 7, 8, 0, 3, 4, 5, 8, 9},
+                  .group = {-1, -1, -1}}};
+  return mesh;
+}
+
+TEST(Sector, NamesANodeOfTheSecondFaceThatTheFirstDoesNotHave)
+{
+  const std::string message = message_of(quarter_of_wedges(0.5 * std::numbers::pi), 4);
+  EXPECT_NE(message.find("the cut faces do not match: node 4 (8.57253e-17, 1.4, 0)"),
+            std::string::npos)
+      << message;
+  // A twentieth of a side off the face it is none of it.
+  EXPECT_EQ(message_of(quarter_of_wedges(0.4 * std::numbers::pi), 4), "");
+}
+
+TEST(Sector, HasItsSecondEdgeMovedOntoTheTurnedFirstWithANote)
+{
+  for (const double off : {1e-12, 3e-6}) {
+    Mesh mesh = annulus(annulus_of(12));
+    mesh.notes.clear();
+    for (const auto& [low, high] : mesh.sectors.pairs) mesh.positions[std::size_t(high)][2] += off;
+    find_sector_edges(mesh, 12);
+    for (const auto& [low, high] : mesh.sectors.pairs)
+      EXPECT_EQ(mesh.positions[std::size_t(high)][2], 0.0);
+    ASSERT_EQ(mesh.notes.size(), off > 1e-9 ? 1u : 0u);
+    if (off < 1e-9) continue;
+    EXPECT_NE(mesh.notes[0].find("by 3e-06 m at most"), std::string::npos) << mesh.notes[0];
+  }
+}
+
 TEST(Sector, IsRefusedWhereTheMeshIsWider)
 {
   const Mesh mesh = annulus(annulus_of(12));
