@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "scene/scene.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "tests/scene/scene_texts.hpp"
 
 namespace chladni::scene {
@@ -102,6 +104,31 @@ TEST(FileGroups, OfAnotherNameThanTheCouplings)
   EXPECT_NE(said.find("scene.toml:15: coupling[1].name = \"curve_1\": is the name of another"),
             std::string::npos)
       << said;
+}
+
+TEST(FileGroups, OfAMeshWithMatricesAreThoseBesideTheScene)
+{
+  const files::test::ScratchFolder folder;
+  for (const char* name : {"disc.sti", "disc.mas"}) std::ofstream(folder.file(name)) << "1 1 1\n";
+  const auto said = [&](const std::string& group) {
+    const Scene scene = parse_scene(R"([mesh]
+file = "disc.inp"
+length_unit = "mm"
+matrices = { stiffness = "disc.sti", mass = "disc.mas" }
+[[coupling]]
+type = "rigid"
+name = "hub"
+group = ")" + group + R"("
+[interface]
+nodes = ["hub"]
+[reduce]
+method = "guyan"
+)",
+                                    folder.file("scene.toml"));
+    return files::test::error_of([&] { check_groups(scene, {"BORE"}); });
+  };
+  EXPECT_EQ(said("BORE"), "");
+  EXPECT_NE(said("BOREHOLE").find("there are: "), std::string::npos) << said("BOREHOLE");
 }
 
 TEST(FileGroups, AreListedUpToThirty)

@@ -122,6 +122,16 @@ TEST(SoundOfAScene, NamesWhatIsWrong)
   expect_words(with("method = \"boundary\"\n"), {"sound.method", "boundary", "fourier"});
   expect_words(with("element_size = -1.0\n"), {"sound.element_size", "-1"});
   expect_words(with("harmonics = 9\n"), {"sound.harmonics", "9", "8"});
+  expect_words(with("order = 1\n"), {"sound.order = 1", ">= 2 and <= 8"});
+  expect_words(with("speeds_rad_s = [3.0, 0.0]\n"), {"sound.speeds_rad_s[2] = 0", "> 0"});
+  expect_words(with("medium = { density = 0.0, speed_of_sound = 340.0 }\n"), {"density", "> 0"});
+  expect_words(with("wav = { microphone = \"a\", rate_Hz = 48000, duration_s = 0.0 }\n"),
+               {"sound.wav.duration_s = 0", ">= 0.1 and <= 600"});
+  expect_words(with("holes = [{ circle_radius = 0.1, radius = 0.01, count = 0 }]\n"),
+               {"sound.holes.count = 0", ">= 1"});
+  expect_words(with("outline = [{ from = [0.1, 0.0], to = [0.1, 0.0], thickness = 0.02 }]\n"),
+               {"outline", "to", "must differ from"});
+  expect_words(with("outline = []\n"), {"outline", "at least one piece"});
   expect_words(with("outline = [{ from = [-0.1, 0.0], to = [0.1, 0.0], thickness = 0.02 }]\n"),
                {"outline", "from", "r >= 0"});
   expect_words(with("wav = { microphone = \"b\", rate_Hz = 48000, duration_s = 2.0 }\n"),
