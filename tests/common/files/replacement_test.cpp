@@ -33,6 +33,23 @@ TEST(Replacement, ReplacesTheOldFileAndLeavesNothingElse)
   EXPECT_EQ(n_files(folder), 1);
 }
 
+TEST(Replacement, LeavesNoFileOpen)
+{
+  const ScratchFolder folder;
+  const auto n_open = [] { return std::distance(fs::directory_iterator("/proc/self/fd"), {}); };
+  const long before = n_open();
+  write_text(folder.file("a"), "text");
+  EXPECT_EQ(n_open(), before);
+  error_of([&] { files::Replacement(folder.file("a")).write("half"); });
+  EXPECT_NE(error_of([&] { write_text(folder.file("no/a"), "text"); }), "");
+  EXPECT_EQ(n_open(), before);
+  const int other = open(folder.file(".a.lock").c_str(), O_RDWR | O_CREAT, 0666);
+  ASSERT_EQ(flock(other, LOCK_EX | LOCK_NB), 0);  // of another run
+  EXPECT_NE(error_of([&] { write_text(folder.file("a"), "text"); }), "");
+  EXPECT_EQ(n_open(), before + 1);
+  close(other);
+}
+
 TEST(Replacement, LeavesTheOldFileWithoutACommit)
 {
   const ScratchFolder folder;
@@ -172,10 +189,11 @@ TEST(UnfinishedFiles, AreRemovedOnSignalsButThoseThatNohupIgnores)
   const struct sigaction hangup = action_of(SIGHUP), interrupt = action_of(SIGINT),
                          end = action_of(SIGTERM), size = action_of(SIGXFSZ);
   std::signal(SIGHUP, SIG_IGN);
+  std::signal(SIGINT, SIG_DFL);  // also where the tests run in the background of a script
   remove_unfinished_files_on_signals();
   EXPECT_EQ(action_of(SIGHUP).sa_handler, SIG_IGN);
   EXPECT_NE(action_of(SIGTERM).sa_handler, end.sa_handler);
-  EXPECT_NE(action_of(SIGINT).sa_handler, interrupt.sa_handler);
+  EXPECT_NE(action_of(SIGINT).sa_handler, SIG_DFL);
   EXPECT_EQ(action_of(SIGXFSZ).sa_handler, SIG_IGN);
   sigaction(SIGHUP, &hangup, nullptr);
   sigaction(SIGINT, &interrupt, nullptr);
