@@ -287,6 +287,29 @@ TEST(SolidElement, IntegratesPolynomialsOnAStraightElement)
   }
 }
 
+/// Where stresses are most accurate, the points of rules of degree 2 whose weights are equal.
+TEST(SolidElement, HasItsStressPointsWhereTheirMeanIsThatOfQuadratics)
+{
+  struct Moments {
+    Type type;
+    double r, r_r, r_s, t, t_t, r_t;
+  };
+  for (const auto& [type, r, r_r, r_s, t, t_t, r_t] :
+       {Moments{{Shape::tetrahedron, 2}, 0.25, 0.1, 0.05, 0.25, 0.1, 0.05},
+        {{Shape::wedge, 2}, 1.0 / 3.0, 1.0 / 6.0, 1.0 / 12.0, 0.0, 1.0 / 3.0, 0.0},
+        {{Shape::hexahedron, 2}, 0.0, 1.0 / 3.0, 0.0, 0.0, 1.0 / 3.0, 0.0}}) {
+    NodeVectors x(mesh::solid_nodes(type.shape, type.order).size(), 3);
+    for (Index i = 0; i < x.rows(); ++i)
+      x.row(i) = RowVector3d(mesh::solid_nodes(type.shape, type.order)[std::size_t(i)].data());
+    const NodeVectors at = solid_stresses(type.shape, type.order, x, iron).x;
+    const RowVector3d mean = at.colwise().mean();
+    const Matrix3d second = at.transpose() * at / double(at.rows());
+    EXPECT_LT((mean - RowVector3d(r, r, t)).norm(), 1e-14);
+    const Matrix3d exact{{r_r, r_s, r_t}, {r_s, r_r, r_t}, {r_t, r_t, t_t}};
+    EXPECT_LT((second - exact).norm(), 1e-14) << second;
+  }
+}
+
 TEST(SolidElement, TellsWhatIsThere)
 {
   EXPECT_THROW(check_solid_exists(Shape::tetrahedron, 1), Error);
