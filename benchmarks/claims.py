@@ -220,9 +220,20 @@ def response_modes(found):
             f"modes, {error('axial and slopes')} with them"]
 
 
+def friction_matrices(found):
+    """What each method finds of the unstable eigenvalues at all frictions together, and its time."""
+    said = []
+    for method in ("enriched", "modes", "samples"):
+        rows = [row for row in found["rows"] if row["method"].startswith(method)]
+        of, hit, near = (sum(row[key] for row in rows) for key in ("of", "found", "growth_within_1_percent"))
+        said.append(f"{method}: {hit} of {of} unstable eigenvalues of {found['n_dofs']:,} DOFs at {len(rows)} frictions, the growth of {near} within 1 %, "
+                    f"in {sum(row['seconds'] for row in rows):.0f} s")
+    return said
+
+
 MAKERS = {"elements": elements, "scale": scale, "ranks": ranks, "methods": methods, "rings": rings, "sectors": sectors,
           "many-modes": many_modes, "response-modes": response_modes, "accuracy": accuracy, "peers": peers, "calculix": calculix,
-          "solids": solids, "solid-disc": solid_disc, "body": body, "squeal": squeal, "sound": sound, "end-to-end": end_to_end,
+          "solids": solids, "friction-matrices": friction_matrices, "solid-disc": solid_disc, "body": body, "squeal": squeal, "sound": sound, "end-to-end": end_to_end,
           "scenes": scenes}
 
 
