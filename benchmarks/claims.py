@@ -223,7 +223,7 @@ def response_modes(found):
 def friction_matrices(found):
     """What each method finds of the unstable eigenvalues at all frictions together, and its time."""
     said = []
-    for method in ("enriched", "modes", "samples"):
+    for method in ("whole", "enriched", "modes", "samples"):
         rows = [row for row in found["rows"] if row["method"].startswith(method)]
         of, hit, near = (sum(row[key] for row in rows) for key in ("of", "found", "growth_within_1_percent"))
         said.append(f"{method}: {hit} of {of} unstable eigenvalues of {found['n_dofs']:,} DOFs at {len(rows)} frictions, the growth of {near} within 1 %, "
