@@ -127,6 +127,8 @@ TEST(CondensationError, IsOneWhereABrakeSquealsThatDidNot)
   EXPECT_NEAR(error({{-2.0, 1000.0}}, {{-7.0, 1000.0}}).growth, 5.0, 1e-9);
   // Less than 1e-4 of the frequency is neither growth nor decay.
   EXPECT_LT(error({{-0.09, 1000.0}}, {{0.09, 1000.0}}).eigenvalues, 2e-4);
+  EXPECT_EQ(error({{-0.09, 1000.0}}, {{3.0, 1000.0}}).eigenvalues, 1.0) << "but this one grows";
+  EXPECT_EQ(error({{-3.0, 1000.0}}, {{0.09, 1000.0}}).eigenvalues, 1.0);
   // Each has one of its own, and the band no other.
   EXPECT_EQ(error({{-1.0, 1000.0}, {-1.0, 1001.0}}, {{-1.0, 1000.5}}).eigenvalues, 1.0);
   EXPECT_EQ(error({{-1.0, 1000.0}}, {{-1.0, 1000.0}, {-1.0, 1500.0}}).eigenvalues, 1.0);

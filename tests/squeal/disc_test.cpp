@@ -5,6 +5,7 @@
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "squeal/brake/disc_ring.hpp"
+#include "tests/common/files/scratch_folder.hpp"
 #include "tests/references/squeal/analytic_body.hpp"
 #include "tests/squeal/turning_discs.hpp"
 
@@ -225,6 +226,44 @@ TEST(Aliases, AreRefusedWithTheNumberOfNodesThatSuffices)
   }
   EXPECT_EQ(alias_in(with_nodes(body, 20)), "");
   EXPECT_EQ(alias_in(body), "");
+}
+
+TEST(Aliases, AreToldByTheSlopesThatAreMostLikeThoseOfAThickPlate)
+{
+  // On 12 nodes waves of 4, 8, 16, 20 and 28 diameters look alike. Shear takes up to 60 % of a
+  // slope.
+  const auto told = [](int n, double part) {
+    const auto body = analytic_body({{n, 6e3, 1.5, 0.6, 11.0, part * n * 0.6 / ring_radius}});
+    const std::string text = alias_in(with_nodes(body, 12));
+    const std::string of = "of ", alike = " nodal diameters looks like one of 4";
+    const auto end = text.find(alike), begin = text.rfind(of, end);
+    return end == std::string::npos ? 4 : std::stoi(text.substr(begin + of.size()));
+  };
+  for (const int n : {8, 16, 20, 28})
+    for (const double part : {0.7, 0.9, 1.0}) EXPECT_EQ(told(n, part), n) << part;
+  EXPECT_EQ(told(8, 0.42), 8);
+  EXPECT_EQ(told(8, 0.38), 4) << "a slope of no wave with so few nodes";
+  EXPECT_EQ(told(8, 1.28), 8);
+  EXPECT_EQ(told(8, 1.32), 20) << "slopes of displacements are the larger ones";
+}
+
+TEST(Aliases, BeyondTheBandDoNotMatter)
+{
+  const auto body = with_nodes(analytic_body({kirchhoff_3(), shearing_pair(8, 7e3)}), 10);
+  for (const double end_Hz : {6.9e3, 7.1e3}) {
+    Disc disc = disc_on_ring(body, "track", {});
+    disc.errors.range = 2.0 * pi * end_Hz;  // of the modes whose errors are known
+    EXPECT_EQ(files::test::error_of([&] { refuse_aliases(disc, body); }).empty(), end_Hz < 7e3);
+    mbs_export::ModalBody selected = body;  // for frequency responses up to there
+    selected.kinds[1] = mbs_export::ModeKind::interface;
+    selected.selection = mbs_export::SelectionTable{.error = 0.01,
+                                                    .Omega_max = 2.0 * pi * end_Hz,
+                                                    .loads = {},
+                                                    .modes_only = {},
+                                                    .with_interface_modes = {}};
+    disc.errors.range = 0.0;
+    EXPECT_EQ(files::test::error_of([&] { refuse_aliases(disc, selected); }).empty(), end_Hz < 7e3);
+  }
 }
 
 TEST(Aliases, OfModesThatTakeNoPartDoNotMatter)

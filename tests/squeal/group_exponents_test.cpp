@@ -125,6 +125,40 @@ Complex by_hills_matrix(const TurningModes& modes, Complex to)
   return all[nearest];
 }
 
+/// Oscillators of 1003 and 1100 rad/s that drive each other by the first harmonic of 100 rad/s,
+/// with c against their damping of 3 1/s, and a third one by itself that grows.
+TurningModes driven_beside(double growth, double c)
+{
+  constexpr int N = 64;
+  Eigen::VectorXcd lambda(6);
+  lambda << Complex(-3.0, 1003.0), Complex(-3.0, -1003.0), Complex(-3.0, 1100.0),
+      Complex(-3.0, -1100.0), Complex(growth, 5000.0), Complex(growth, -5000.0);
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(6, 6);
+  C.block<2, 2>(0, 2) = C.block<2, 2>(2, 0) = c * Eigen::Matrix2d::Identity();
+  TurningModes modes{100.0, lambda, Eigen::MatrixXd(36, N), 1, C.reshaped().cast<Complex>()};
+  for (int s = 0; s < N; ++s)
+    modes.B.col(s) = 2.0 * std::cos(2.0 * std::numbers::pi * s / N) * C.reshaped();
+  return modes;
+}
+
+TEST(NearGroups, ThatMayGrowMostAreThoseOfTheirEquationsAlone)
+{
+  // In resonance, 1100 - 100 against 1003, one of both grows by sqrt(10^2 - 1.5^2) - 3 = 6.9 1/s.
+  for (const double growth : {6.0, 8.0}) {
+    const TurningModes modes = driven_beside(growth, 10.0);
+    const auto groups = near_groups(modes, 1e-6, GroupsAsked{.least_stable = 1});
+    double most = -1e9;
+    for (const NearGroup& group : groups) {
+      const Eigen::VectorXcd found = group_exponents(group, modes.step).lambda;
+      most = std::max(most, found.real().maxCoeff());
+    }
+    const Complex driven = by_hills_matrix(modes, Complex(6.9, 1001.5));
+    EXPECT_NEAR(driven.real(), std::sqrt(100.0 - 2.25) - 3.0, 0.1);
+    EXPECT_NEAR(most, std::max(growth, driven.real()), 1e-6) << groups.size();
+    EXPECT_EQ(groups.size(), 1u) << "the other one grows less";
+  }
+}
+
 TEST(NearGroups, StayAloneBesideStatesThatAreNearEachOther)
 {
   const TurningModes modes = three_oscillators();

@@ -226,6 +226,24 @@ TEST(Oscillator, LeavesTheBeltWhenItMay)
   EXPECT_GT(SlidingBrake(o).contact(off, 10.0).upper.f_t, 0.0);
 }
 
+TEST(ModelTransient, HasAnEnvelopeOfFourPeriodsOfItsLowestFrequency)
+{
+  const RigidDiscBrake model(
+      {.disc = source_disc(), .drive = Drive::speed, .equations = RigidEquations::linear});
+  const TransientCase run{.speed = 100.0 * pi,  // which splits the frequencies
+                          .duration = 0.5,
+                          .initial_pad_displacement = 1e-6,
+                          .steps_per_period = 40};
+  const Eigen::VectorXcd lambda = model.state_matrix(run.speed).eigenvalues();
+  const double highest = lambda.cwiseAbs().maxCoeff();
+  double lowest = highest;
+  for (const std::complex<double>& one : lambda)
+    if (one.imag() > 0.0) lowest = std::min(lowest, one.imag());
+  ASSERT_GT(highest, 1.02 * lowest);
+  // One point of each window of whole steps, and one of what is left.
+  EXPECT_NEAR(double(transient(model, run).envelope.t.size()), 0.5 * lowest / (8.0 * pi), 1.5);
+}
+
 TEST(ModelTransient, RefusesWhatItCannotIntegrate)
 {
   const RigidDiscBrake model(

@@ -73,6 +73,25 @@ TEST(PadBody, HasTheFrequenciesOfItsSuspension)
   EXPECT_NEAR(three.omega[2], chain[1], 1e-8);
 }
 
+TEST(PadMatrices, HaveEqualAndOppositeForcesBetweenPlatesAndCaliper)
+{
+  PadPair pad = pair_of_reference();
+  pad.body =
+      PadBody{.mass = 0.5, .tangential = Suspension{3e6, 2.0}, .axial = Suspension{2e6, 7.0}};
+  pad.caliper = Caliper{.mass = 3.0, .axial = {1e6, 5.0}};
+  const PadMatrices found = pad_matrices(options_with(pad));  // of a plate, the other, the caliper
+  Eigen::MatrixXd K{
+      {3, 0, 0, 0, 0}, {0, 2, 0, 0, -2}, {0, 0, 3, 0, 0}, {0, 0, 0, 2, -2}, {0, -2, 0, -2, 5}};
+  EXPECT_EQ(found.K, 1e6 * K);
+  EXPECT_EQ(found.C, (Eigen::MatrixXd{{2, 0, 0, 0, 0},
+                                      {0, 7, 0, 0, -7},
+                                      {0, 0, 2, 0, 0},
+                                      {0, 0, 0, 7, -7},
+                                      {0, -7, 0, -7, 19}}));
+  EXPECT_EQ(found.M.diagonal(), (Eigen::VectorXd{{0.5, 0.5, 0.5, 0.5, 3.0}}));
+  EXPECT_TRUE(found.M.isDiagonal(0.0));
+}
+
 TEST(PadBody, WithoutMassIsTheMasslessPadOnItsLiningAndSuspensionInSeries)
 {
   // A light plate follows: 1 / k = 1 / k_lining + 1 / k_suspension. The error is of the order of

@@ -6,6 +6,7 @@
 
 #include "common/error.hpp"
 #include "common/files/hdf5.hpp"
+#include "squeal/results/sweep_table.hpp"
 #include "squeal/study/study.hpp"
 #include "tests/common/files/scratch_folder.hpp"
 #include "tests/mbs_export/damaged_numbers.hpp"
@@ -32,6 +33,67 @@ SquealResults complete_results()
       TransientCase{.speed = 6.0 * pi, .duration = 0.2, .initial_pad_displacement = 4e-4};
   options.study.growth = GrowthCase{.speeds = {5.0 * pi, 6.0 * pi}, .duration = 0.1};
   return run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study);
+}
+
+SweepTable three_variants()
+{
+  files::RowMajorMatrix values(3, 2);
+  values << 0.6, 2000.0, 0.5, 2000.0, 0.1 + 0.2, 1e-7;
+  SweepTable sweep = empty_sweep({"squeal.friction", "squeal.pads[1].preload"}, values,
+                                 {{"critical_speed_rad_s", "rad/s"}, {"growth, 1/s", "1/s"}});
+  sweep.results.row(0) << 17.25, -3.5;
+  sweep.known.row(0) << 1, 1;
+  sweep.results(1, 1) = 2.0;
+  sweep.known(1, 1) = 1;
+  sweep.states = {VariantState::done, VariantState::failed, VariantState::to_do};
+  sweep.failures[1] = "transient: \"it\", diverged";
+  sweep.inputs = "0123456789abcdef";
+  return sweep;
+}
+
+TEST(SweepFile, ReturnsEveryValueItWasGiven)
+{
+  const ScratchFolder folder;
+  const SweepTable written = three_variants();
+  EXPECT_EQ(written.count(VariantState::failed), 1u);
+  write_sweep(folder.file("disc.sweep.h5"), written, {});
+  const SweepTable read = read_sweep(files::Reader(folder.file("disc.sweep.h5")));
+  EXPECT_EQ(read.keys, written.keys);
+  EXPECT_EQ(read.values, written.values);
+  EXPECT_EQ(read.columns, written.columns);
+  EXPECT_EQ(read.results, written.results);
+  EXPECT_EQ(read.known, written.known);
+  EXPECT_EQ(read.states, written.states);
+  EXPECT_EQ(read.failures, written.failures);
+  EXPECT_EQ(read.inputs, written.inputs);
+  EXPECT_EQ(name_of_variant(read, 2),
+            "squeal.friction = 0.30000000000000004, squeal.pads[1].preload = 1e-07");
+  EXPECT_EQ(csv_of(read),
+            "variant,squeal.friction,squeal.pads[1].preload,critical_speed_rad_s,\"growth, 1/s\","
+            "failure\n"
+            "1,0.6,2000,17.25,-3.5,\n"
+            "2,0.5,2000,,2,\"transient: \"\"it\"\", diverged\"\n"
+            "3,0.30000000000000004,1e-07,,,\n");
+}
+
+TEST(SweepFile, HasNoStatesAndFailuresOfOthers)
+{
+  const ScratchFolder folder;
+  const auto refusal = [&](const SweepTable& sweep) {
+    write_sweep(folder.file("bad.sweep.h5"), sweep, {});
+    return error_of([&] { read_sweep(files::Reader(folder.file("bad.sweep.h5"))); });
+  };
+  SweepTable sweep = three_variants();
+  for (const int state : {-1, 3}) {
+    sweep.states[1] = static_cast<VariantState>(state);
+    EXPECT_NE(refusal(sweep).find("states: expected 0, 1 or 2"), std::string::npos);
+  }
+  sweep = three_variants();
+  sweep.states.push_back(VariantState::to_do);
+  sweep.failures.emplace_back("of a fourth variant");
+  EXPECT_NE(refusal(sweep).find("bad.sweep.h5: states"), std::string::npos) << refusal(sweep);
+  sweep.states.pop_back();
+  EXPECT_EQ(refusal(sweep), "") << "only failures of variants are written";
 }
 
 TEST(ResultFile, ReturnsTheExponentsOfARotation)

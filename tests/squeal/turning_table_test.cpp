@@ -54,6 +54,46 @@ void expect_same(const StabilityTable& table, const StabilityTable& expected, do
   }
 }
 
+TEST(StabilityProfile, JoinsTheIntervalsOfAllMotions)
+{
+  const auto branch = [](std::vector<Complex> lambda, std::vector<UnstableInterval> unstable) {
+    return StabilityBranch{
+        .lambda = Eigen::Map<const Eigen::VectorXcd>(lambda.data(), std::ssize(lambda)),
+        .unstable = std::move(unstable),
+        .worst = {},
+        .shares = {}};
+  };
+  const auto interval = [](double from, double to, double growth) {
+    return UnstableInterval{
+        .from = {from, 0.0, 50.0}, .to = {to, 0.0, 50.0}, .worst = {from, growth, 50.0}};
+  };
+  const StabilityTable table{
+      .parameter = "speed",
+      .speed = {},
+      .band = {},
+      .values = Eigen::Vector3d(1.0, 5.0, 9.0),
+      .families = {},
+      .branches = {branch({{-3.0, 20.0 * pi}, {-2.0, 20.0 * pi}, {4.0, -60.0 * pi}},
+                          {interval(2.0, 4.0, 7.0), interval(7.0, 9.0, 4.0)}),
+                   branch({{-1.0, -40.0 * pi}, {3.0, 40.0 * pi}, {-5.0, 40.0 * pi}},
+                          {interval(3.0, 6.0, 8.0), interval(3.5, 5.0, 1.0)})},
+      .method = "hill"};
+  const StabilityProfile profile = profile_of(table);
+  EXPECT_EQ(profile.method, "hill");
+  EXPECT_EQ(profile.from.value, 1.0);
+  EXPECT_EQ(profile.from.growth, -1.0);
+  EXPECT_DOUBLE_EQ(profile.from.frequency_Hz, 20.0);
+  EXPECT_EQ(profile.to.value, 9.0);
+  EXPECT_EQ(profile.to.growth, 4.0);
+  EXPECT_DOUBLE_EQ(profile.to.frequency_Hz, 30.0);
+  ASSERT_EQ(profile.unstable.size(), 2u);
+  EXPECT_EQ(profile.unstable[0].from.value, 2.0);
+  EXPECT_EQ(profile.unstable[0].to.value, 6.0);
+  EXPECT_EQ(profile.unstable[0].worst.growth, 8.0);
+  EXPECT_EQ(profile.unstable[1].from.value, 7.0);
+  EXPECT_EQ(profile.unstable[1].worst.growth, 4.0);
+}
+
 TEST(TurningTable, IsThatOfTheEigenvaluesWhereTheDiscIsAxisymmetric)
 {
   const FlexibleDisc brake(disc_of({turned_by(kirchhoff_2(), 0.4), kirchhoff_3(), kirchhoff_4()}),
