@@ -184,6 +184,31 @@ TEST(Study, RefusesTheLimitCycleOfAnotherBody)
   EXPECT_THROW(sound_study({body, brake, options}, results), Error);
 }
 
+TEST(Study, RefusesARingOnWhichAModeLooksLikeAnother)
+{
+  mbs_export::ModalBody body = testing::thesis_body();
+  const squeal::SquealOptions brake = thesis_brake();
+  const SoundOptions options = thesis_sound();
+  squeal::SquealResults results;
+  results.limit_cycle_direct = squeal::limit_cycle_direct(
+      squeal::FlexibleDisc(squeal::disc_on_ring(body, "track", {}), brake), 6.0 * pi);
+  // Three diameters on five nodes are two.
+  mbs_export::ContactRing& ring = body.rings[0];
+  ASSERT_EQ(ring.angles.size() % 5, 0);
+  const auto five = Eigen::seqN(0, 5, ring.angles.size() / 5);
+  ring.angles = Eigen::VectorXd(ring.angles(five));
+  for (Eigen::MatrixXd* shapes : {&ring.W, &ring.W_r, &ring.W_t})
+    *shapes = Eigen::MatrixXd((*shapes)(five, Eigen::all));
+  try {
+    sound_study({body, brake, options}, results);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("of 3 nodal diameters looks like one of 2"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 AirPlan plan(const AirOptions& options)
 {
   return plan_air(thick_body(thesis_sound().lines, Hub::closed).outline, options, 2.0 * pi * 1700.0,
