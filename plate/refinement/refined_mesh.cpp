@@ -455,13 +455,11 @@ struct SolidPattern {
 SolidPattern::SolidPattern(Shape shape, int order, const Refinement& how)
 {
   constexpr double near = 1e-9;
-  std::vector<RowVector3d> points;
-  const auto place_of = [&](const RowVector3d& x) {
+  const auto place_among = [&](const std::vector<RowVector3d>& points, const RowVector3d& x) {
     const auto is_there = [&](const RowVector3d& other) { return (other - x).norm() < near; };
-    const auto place = std::ranges::find_if(points, is_there) - points.begin();
-    if (place == std::ssize(points)) points.push_back(x);
-    return static_cast<int>(place);
+    return static_cast<int>(std::ranges::find_if(points, is_there) - points.begin());
   };
+  std::vector<RowVector3d> points;
   const std::vector<std::array<double, 3>> nodes = mesh::solid_nodes(shape, how.order);
   MatrixX3d own(std::ssize(nodes), 3);
   for (Index i = 0; i < own.rows(); ++i)
@@ -472,20 +470,19 @@ SolidPattern::SolidPattern(Shape shape, int order, const Refinement& how)
     for (Index i = 0; i < linear.rows(); ++i) {
       RowVector3d x = RowVector3d::Zero();
       for (std::size_t c = 0; c < part.size(); ++c) x += linear(i, Index(c)) * part[c];
-      parts.back().push_back(place_of(x));
+      parts.back().push_back(place_among(points, x));
+      if (parts.back().back() == std::ssize(points)) points.push_back(x);
     }
   }
   r.resize(std::ssize(points), 3);
   for (Index i = 0; i < r.rows(); ++i) r.row(i) = points[static_cast<std::size_t>(i)];
   shapes = solid_shapes(shape, order, r);
   corners = solid_shapes(shape, 1, r);
-  same.assign(points.size(), -1);
-  const std::size_t n = points.size();
-  const std::vector<std::array<double, 3>> old = mesh::solid_nodes(shape, order);
-  for (std::size_t i = 0; i < old.size(); ++i) {
-    const int place = place_of(RowVector3d(old[i].data()));
-    if (static_cast<std::size_t>(place) < n) same[static_cast<std::size_t>(place)] = int(i);
-    points.resize(n);
+  std::vector<RowVector3d> old;
+  for (const std::array<double, 3>& x : mesh::solid_nodes(shape, order)) old.emplace_back(x.data());
+  for (const RowVector3d& x : points) {
+    const int node = place_among(old, x);
+    same.push_back(node < std::ssize(old) ? node : -1);
   }
 }
 

@@ -41,6 +41,28 @@ TEST(FreeParts, NameWhatSupportsLeaveFree)
   EXPECT_EQ(n_free_motions(hinged), 1);  // about the left edge
 }
 
+TEST(FreeParts, AreTheSameFarFromTheOrigin)
+{
+  mesh::Mesh mesh = plate();
+  const auto free = [&] {
+    const DofMap dofs = map_of(mesh, {});
+    const std::vector<Support> hinges{{.group = "left", .components = {0, 1, 2}}};
+    return free_parts(mesh, dofs, held_dofs(mesh, dofs, hinges));
+  };
+  const std::vector<FreePart> here = free();
+  for (auto& x : mesh.positions) x[0] += 65536.0;
+  const std::vector<FreePart> there = free();
+  ASSERT_EQ(n_free_motions(there), 1);
+  // A turn about the edge, which is 1 m from the centre, in the length 1 / (mean distance of it).
+  const Eigen::VectorXd motion = here[0].motions.col(0);
+  EXPECT_LT((there[0].motions * there[0].motions.transpose() - motion * motion.transpose()).norm(),
+            1e-9);
+  double length = 0.0;
+  for (const auto& x : mesh.positions)
+    length += std::hypot(x[0] - 65537.0, x[1] - 0.5) / mesh.n_nodes();
+  EXPECT_NEAR(std::abs(motion[2] / motion[4]), 1.0 / length, 1e-9);
+}
+
 /// Two plates that nothing connects; the corner of the second has the group "far_corner".
 mesh::Mesh two_plates()
 {

@@ -8,6 +8,7 @@
 #include "mesh/element_types.hpp"
 #include "mesh/extrude.hpp"
 #include "mesh/generators.hpp"
+#include "mesh/nodal_matrices.hpp"
 #include "plate/assembly/inertia_integrals.hpp"
 #include "plate/assembly/recovery.hpp"
 #include "plate/dofs/free_motions.hpp"
@@ -231,6 +232,59 @@ TEST(Solids, HaveTheMassOfTheWholeAssembly)
               1e-9 * phi.dot(I * phi));
   EXPECT_NEAR(energy(system.M, rigid_motion(system, Vector3d::UnitY(), Vector3d::Zero())),
               moments.mass, 1e-10 * moments.mass);
+}
+
+/// The upper triangle of a matrix of solids by nodes, as another program gives it.
+std::vector<mesh::MatrixEntry> entries_of(Mat A, const DofMap& dofs, int n_nodes)
+{
+  PetscInt n = 0, first = 0, last = 0;
+  petsc::check(MatGetSize(A, &n, nullptr));
+  petsc::check(MatGetOwnershipRange(A, &first, &last));
+  MatrixXd whole = MatrixXd::Zero(n, n);
+  for (PetscInt i = first; i < last; ++i)
+    for (PetscInt j = 0; j < n; ++j) petsc::check(MatGetValue(A, i, j, &whole(i, j)));
+  MPI_Allreduce(MPI_IN_PLACE, whole.data(), int(whole.size()), MPI_DOUBLE, MPI_SUM,
+                PETSC_COMM_WORLD);
+  std::vector<mesh::MatrixEntry> entries;
+  for (int a = 0; a < n_nodes; ++a)
+    for (int b = a; b < n_nodes; ++b)
+      for (int i = 0; i < 3; ++i)
+        for (int j = a == b ? i : 0; j < 3; ++j) {
+          const double value = whole(*dofs.dof(a, i), *dofs.dof(b, j));
+          if (value != 0.0)
+            entries.push_back({.row = 6 * a + i, .column = 6 * b + j, .value = value});
+        }
+  return entries;
+}
+
+TEST(Solids, OfForeignMatricesHaveTheIntegralsOfTheirElements)
+{
+  mesh::Mesh mesh = block();
+  const Structure own{.solids = solids}, foreign;
+  const System system = assemble(mesh, own, map_of(mesh, {}), PETSC_COMM_WORLD);
+  const MassMoments expected = mass_moments(mass_model(mesh, own, system.dofs, PETSC_COMM_WORLD));
+  mesh.matrices = std::make_shared<const mesh::NodalMatrices>(
+      mesh::NodalMatrices{.n_components = std::vector<std::int8_t>(std::size_t(mesh.n_nodes()), 3),
+                          .K = entries_of(system.K, system.dofs, mesh.n_nodes()),
+                          .M = entries_of(system.M, system.dofs, mesh.n_nodes()),
+                          .C = {},
+                          .H = {}});
+  EXPECT_TRUE(mesh::is_mass_of_points(*mesh.matrices));
+  const System same = assemble(mesh, foreign, map_of(mesh, {}), PETSC_COMM_WORLD);
+  const MassModel model = mass_model(mesh, foreign, same.dofs, PETSC_COMM_WORLD);
+  const MassMoments found = mass_moments(model);
+  EXPECT_NEAR(found.mass, expected.mass, 1e-13 * expected.mass);
+  EXPECT_LT((found.first - expected.first).norm(), 1e-13 * expected.mass);
+  EXPECT_LT((found.second - expected.second).norm(), 1e-13 * expected.mass);
+  const Vector3d u(0.3, -0.2, 0.5), phi(0.4, 0.7, -0.6);
+  petsc::Matrix sum = displacement_product(model, 0, 0);
+  for (int k = 1; k < 3; ++k)
+    petsc::check(MatAXPY(sum, 1.0, displacement_product(model, k, k), DIFFERENT_NONZERO_PATTERN));
+  const petsc::Vector here = rigid_motion(system, u, phi), there = rigid_motion(same, u, phi);
+  const double kinetic = energy(system.M, here);
+  EXPECT_NEAR(energy(same.M, there), kinetic, 1e-12 * kinetic);
+  EXPECT_NEAR(energy(sum, there), kinetic, 1e-12 * kinetic);
+  EXPECT_LT(energy(same.K, there), 1e-12 * energy(same.K, random_motion(same)));
 }
 
 TEST(Solids, AreHeldByTheirHub)
