@@ -180,6 +180,8 @@ const std::vector<Refusal> refused_commands{
     {cube_of_8 + "N,9,1.,2.\n", {"line 20", "NBLOCK"}},
     {cube_of_8 + "D,1,UX,0.1\n", {"line 20", "prescribes"}},
     {cube_of_8 + "D,1,TEMP\n", {"line 20", "TEMP"}},
+    {cube_of_8 + "MP,EX,3,x\n", {"line 20", "is no number"}},
+    {cube_of_8 + ansys_steel + "MP,GYZ,3,80900.\n", {"GYZ = 80900 is not 80769.2", "isotropic"}},
     {cube_of_8 + "D,99,UX\n", {"line 20", "no node 99"}},
     {cube_of_8 + "CMBLOCK,A,NODE,2\n(8i10)\n         4        -2\n", {"line 22", "no range"}},
     {"NBLOCK,6,SOLID\n(3i9,6e21.13e3)\n        1        0        x\n",

@@ -1,10 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
+#include <span>
+#include <vector>
 
 #include "generated.hpp"
+#include "mesh/curved_rows.hpp"
 #include "mesh/quality.hpp"
 
 namespace chladni::mesh {
@@ -19,6 +24,48 @@ using testing::hat_options;
 using testing::radius;
 
 class EdgeRows : public Generated {};
+
+TEST(BendTriangles, LaysTheirNodesEquallyBetweenTheirCornersInRadiusAndAngle)
+{
+  const CurvedRow row{.centre = {2.0, 3.0}, .inner = 0.9, .outer = 1.0};
+  struct Place {
+    double r, degrees, z;
+  };
+  const auto at = [&](const Place& p) {
+    const double angle = p.degrees * std::numbers::pi / 180.0;
+    return Vector{2.0 + p.r * std::cos(angle), 3.0 + p.r * std::sin(angle), p.z};
+  };
+  for (const int order : {1, 2, 3, 4}) {
+    for (const double inner : {0.9, 0.92}) {  // the other one is not of the row
+      const std::array<Place, 3> corners{
+          {{1.0, 170.0, 0.0}, {1.0, 195.0, 0.1}, {inner, 185.0, 0.4}}};
+      const Vector a = at(corners[0]), b = at(corners[1]), c = at(corners[2]);
+      Mesh mesh;
+      ElementBlock block{.shape = Shape::triangle,
+                         .order = order,
+                         .nodes_per_element = (order + 1) * (order + 2) / 2,
+                         .numbers = {1},
+                         .nodes = {},
+                         .group = {-1}};
+      std::vector<Vector> straight, bent;
+      for (int j = 0; j <= order; ++j)
+        for (int i = 0; i + j <= order; ++i) {
+          const double r = double(i) / order, s = double(j) / order, t = 1.0 - r - s;
+          straight.push_back({});
+          for (std::size_t d = 0; d < 3; ++d) straight.back()[d] = t * a[d] + r * b[d] + s * c[d];
+          bent.push_back(at({t * 1.0 + r * 1.0 + s * inner, t * 170.0 + r * 195.0 + s * 185.0,
+                             r * 0.1 + s * 0.4}));
+          block.nodes.push_back(int(bent.size()) - 1);
+        }
+      mesh.positions = straight;
+      mesh.blocks = {block};
+      bend_triangles(mesh, std::span(&row, 1));
+      const std::vector<Vector>& expected = inner == 0.9 ? bent : straight;
+      for (std::size_t i = 0; i < expected.size(); ++i)
+        EXPECT_LT(norm(minus(mesh.positions[i], expected[i])), 4e-15) << order << ", " << i;
+    }
+  }
+}
 
 TEST_P(EdgeRows, AnnulusHasOneRowOfElementsAlongItsEdges)
 {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "common/error.hpp"
+#include "file_test.hpp"
+
 namespace chladni::mesh {
 namespace {
 
@@ -58,6 +61,41 @@ TEST(GeoCode, MayHaveAMillionBlanksOrCharactersInAComment)
 {
   const std::string million(1000000, ' ');
   EXPECT_EQ(geo_statements("a /*" + million + "*/ b" + million + "c"), Statements{"a b c"});
+}
+
+class MshText : public testing::FileTest {};
+
+TEST_F(MshText, IsWholeWithAllItsSections)
+{
+  const auto said = [&](const std::string& text) -> std::string {
+    try {
+      check_msh_is_whole(write("a.msh", text));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string whole =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n"
+      "$Elements\n1\n1 15 2 1 1 1\n$EndElements\n";
+  const std::string comments = "$Comments\nof a program\n$EndComments\n";
+  EXPECT_EQ(said(whole), "");
+  EXPECT_EQ(said(comments + whole), "");
+  EXPECT_NE(said(comments).find("$MeshFormat is missing from its first line"), std::string::npos);
+  EXPECT_NE(said("\n" + whole).find("$MeshFormat is missing"), std::string::npos);
+  const auto without = [&](std::string text, const std::string& line) {
+    return text.erase(text.find(line), line.size());
+  };
+  for (const std::string section : {"MeshFormat", "Nodes", "Elements"}) {
+    const std::string cut = without(whole, "$End" + section + "\n");
+    EXPECT_NE(said(cut).find("is cut off: $End" + section + " is missing"), std::string::npos)
+        << said(cut);
+    if (section == "MeshFormat") continue;
+    EXPECT_NE(said(without(cut, "$" + section + "\n")).find("is cut off: $" + section + " is"),
+              std::string::npos);
+  }
+  EXPECT_NE(said("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\r\n1\n").find("$EndEntities"),
+            std::string::npos);
 }
 
 }  // namespace
