@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "bending_beam.hpp"
@@ -77,6 +78,87 @@ TEST(CheckReduced, WarnsOfAnAsymmetryOfTenDigitsAndFailsOfEight)
       s.K(0, 8) = s.K(8, 0) + of * std::sqrt(s.K(0, 0) * s.K(8, 8));
     });
   }
+}
+
+/// The limits of docs/reference/file_formats.md.
+void expect_limits(const std::vector<Check>& checks, const std::map<std::string, double>& limits)
+{
+  for (const auto& [name, limit] : limits) {
+    const auto found = std::ranges::find(checks, name, &Check::name);
+    ASSERT_NE(found, checks.end()) << name;
+    EXPECT_EQ(found->limit, limit) << name;
+  }
+}
+
+TEST(CheckReduced, HasTheLimitsOfTheReference)
+{
+  ReducedSystem wheel = test::wheel();
+  wheel.C = wheel.H = 1e-5 * wheel.K;
+  expect_limits(check_reduced(wheel), {{"symmetry of K", 1e-8},
+                                       {"symmetry of H", 1e-8},
+                                       {"definiteness of K", 1e-8},
+                                       {"definiteness of M", 1e-8},
+                                       {"their stiffness", 1e-12},
+                                       {"condition of K", 1e8},
+                                       {"condition of M", 1e8},
+                                       {"rigid-body energy", 1e-6},
+                                       {"grounding", 0.0},
+                                       {"rigid modes", 6.0},
+                                       {"mass of rigid motions", 1e-6},
+                                       {"inertia", 1e-6},
+                                       {"orthogonality of modes", 1e-8},
+                                       {"mass integrals", 1e-8},
+                                       {"momentum of coordinates", 1e-8}});
+  expect_limits(check_reduced(test::reduced_beam(30, 5)),
+                {{"fixed-interface modes", 1e-8}, {"mass of these modes", 1e-8}});
+  expect_limits(check_body(held_wheel()), {{"frequencies", 1e-6},
+                                           {"rigid-body energy", 1e-6},
+                                           {"held displacements", 1e-7},
+                                           {"condition of Q_dd", 1e6},
+                                           {"symmetry of C", 1e-8},
+                                           {"definiteness of C", 1e-8},
+                                           {"ring rim", 1e-9}});
+  expect_limits(check_body(make_body(test::wheel(), {})),
+                {{"shape of rigid modes", 1e-6}, {"orthogonality of modes", 1e-6}});
+}
+
+TEST(CheckParts, HaveTheirClosedForms)
+{
+  using namespace check_parts;
+  for (const auto& [value, verdict] : {std::pair{0.99e-2, Verdict::pass},
+                                       {1.01e-2, Verdict::warn},
+                                       {1.0, Verdict::warn},
+                                       {1.01, Verdict::fail},
+                                       {std::nan(""), Verdict::fail}})
+    EXPECT_EQ(bounded("", value, 1.0, "").verdict, verdict) << value;
+  EXPECT_NEAR(asymmetry(Eigen::Matrix2d{{4.0, 0.5}, {0.2, 9.0}}), 0.3 / 6.0, 1e-14);
+  EXPECT_NEAR(asymmetry(Eigen::Matrix2d{{4.0, -0.5}, {0.5, -9.0}}), 1.0 / 6.0, 1e-14);
+  EXPECT_EQ(asymmetry(Eigen::Matrix2d{{1e14, 0.0}, {0.9, 1e-6}}), 0.0) << "of round-off";
+  EXPECT_GT(asymmetry(Eigen::Matrix2d{{1e14, 0.0}, {1.1, 1e-6}}), 1e-4);
+  EXPECT_EQ(unit_diagonal(Eigen::Matrix3d{{4, 6, 1}, {6, 9, 1}, {1, 1, -1}}),
+            (Eigen::Matrix3d{{1, 1, 1.0 / 6}, {1, 1, 1.0 / 9}, {1.0 / 6, 1.0 / 9, -1.0 / 9}}));
+  EXPECT_EQ(relative_eigenvalues(Eigen::Vector3d(-4, 2, 1).asDiagonal()),
+            Eigen::Vector3d(-1.0, 0.25, 0.5));
+  const auto excess = [](double a, double b, double c) {
+    return check_inertia(Eigen::Vector3d(a, b, c).asDiagonal()).value;
+  };
+  EXPECT_EQ(excess(1, 2, 3), 0.0) << "of a plate";
+  EXPECT_DOUBLE_EQ(excess(1, 2, 4), 0.25);
+  EXPECT_DOUBLE_EQ(excess(-1, 2, 2), 0.5);
+  EXPECT_EQ(excess(0, 0, 0), 1.0);
+  Eigen::Matrix3d skew = Eigen::Vector3d(2, 2, 2).asDiagonal();
+  skew(0, 1) = 0.4;  // a symmetric part of 0.2 makes 2.2 the largest
+  EXPECT_DOUBLE_EQ(check_inertia(skew).value, 0.2 / 2.2);
+  const std::vector<AttachmentNode> nodes{{.number = 1, .position = {1, 0, 0}},
+                                          {.number = 2, .position = {1, 6, 0}},
+                                          {.number = 3, .position = {1, 3, 0}}};
+  EXPECT_DOUBLE_EQ(characteristic_length(nodes), std::sqrt(6.0));
+  EXPECT_EQ(characteristic_length({nodes[1]}), 1.0);
+  Stiffening stiffening{};
+  stiffening.K = {Eigen::Matrix2d{{2, 1}, {1, 0}}, Eigen::Matrix2d{{0, 0}, {0, 0}},
+                  Eigen::Matrix2d{{8, 1}, {1.5, -10}}};
+  EXPECT_DOUBLE_EQ(check_stiffening(stiffening).value, 0.05);
+  EXPECT_EQ(check_stiffening(stiffening).limit, 1e-10);
 }
 
 TEST(CheckReduced, FailsEachPropertyThatIsSpoiled)

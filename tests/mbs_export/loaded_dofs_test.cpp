@@ -192,6 +192,22 @@ TEST(LoadedDofs, AreNoneWhereTheSupportHoldsAll)
   EXPECT_TRUE(loads_of(test::wheel(), {"hub", "rim"}, {}).dofs.empty());
 }
 
+TEST(LoadedDofs, AreRefusedWhereWhatIsFreeIsDrillingAtSomeNodesAlone)
+{
+  ReducedSystem wheel = test::wheel();
+  const std::vector<std::string> held{"hub", "rim.x", "rim.y", "rim.z", "rim.rx", "rim.ry"};
+  EXPECT_EQ(loads_of(wheel, held, {}).names, std::vector<std::string>{"rim.rz"});
+  const std::vector<int> rim = wheel.sets.front().nodes;
+  wheel.attachment_nodes[std::size_t(rim[0])].drilling_axis = {0.0, 0.0, 1.0};
+  const std::string said = files::test::error_of([&] { loads_of(wheel, held, {}); });
+  const auto second = wheel.attachment_nodes[std::size_t(rim[1])].number;
+  EXPECT_NE(said.find("rim.rz is free at node " + std::to_string(second) + ", but nothing"),
+            std::string::npos)
+      << said;
+  for (const int node : rim) wheel.attachment_nodes[std::size_t(node)].drilling_axis = {0, 0, 1};
+  EXPECT_TRUE(loads_of(wheel, held, {}).dofs.empty()) << "a moment there turns its node alone";
+}
+
 TEST(LoadedDofs, OfARingThatIsHeldAlongZAreThoseOfAnySet)
 {
   const ReducedSystem wheel = test::wheel();

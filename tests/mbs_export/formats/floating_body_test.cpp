@@ -58,6 +58,10 @@ TEST(FloatingBody, TakesRoundOffForNoDamperToTheGround)
   wheel.C(a, b) = wheel.C(b, a) = -1e3;
   wheel.C(3, 3) = 1e-30;
   EXPECT_EQ(refused_key(wheel, with_dampers()), "");
+  wheel.C(a, a) = 1e3 * (1.0 + 1e-11);  // a share of 3e-12 of the sum without signs
+  EXPECT_EQ(refused_key(wheel, with_dampers()), "");
+  wheel.C(a, a) = 1e3 * (1.0 + 1e-8);
+  EXPECT_EQ(refused_key(wheel, with_dampers()), "spring.damping");
 }
 
 TEST(FloatingBody, RefusesDampersToTheGround)
