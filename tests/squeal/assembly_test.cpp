@@ -403,10 +403,27 @@ TEST(Assembly, SaysWhatDoesNotFit)
 
 TEST(Assembly, RefusesAPartThatFrictionDragsAway)
 {
-  AssemblyOptions options = two_plates();
-  options.joints[1].stiffness = {0.0, 0.0, 5e6, 3e3, 2e3, 0.0};
-  EXPECT_NE(error_of(options).find("part \"lower\" (lower.body.h5) is not held"), std::string::npos)
-      << error_of(options);
+  for (const std::size_t loose : {0, 1}) {
+    AssemblyOptions options = two_plates();
+    options.joints[loose].stiffness = {0.0, 0.0, 5e6, 3e3, 2e3, 0.0};
+    JointOptions thread = suspension_of("upper");  // by which it hardly moves the other one
+    thread.ends[1] = PartNodes{"lower", "centre"};
+    thread.stiffness = {1e-3, 1e-3, 0.0, 0.0, 0.0, 1e-3};
+    thread.damping = {};
+    thread.span = 0.05;
+    options.joints.push_back(thread);
+    const std::string part = loose == 0 ? "upper" : "lower";
+    EXPECT_NE(error_of(options).find("part \"" + part + "\" (" + part + ".body.h5) is not held"),
+              std::string::npos)
+        << error_of(options);
+    // A spring that lets it move at a part of 1e-4 of the first frequency of the disc is none.
+    const double slowest = 1e-4 * bodies_of_two_plates()[0].omega.minCoeff();
+    for (const double share : {0.9, 1.1}) {
+      options.joints[loose].stiffness = {
+          plate.mass * std::pow(share * slowest, 2), 2e7, 5e6, 3e3, 2e3, 2e4};
+      EXPECT_EQ(error_of(options).empty(), share > 1.0) << error_of(options);
+    }
+  }
 }
 
 TEST(NodeAreas, SumToTheSectorAndAreThoseOfTheTrapezoidalRule)
