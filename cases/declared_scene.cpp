@@ -41,11 +41,26 @@ std::string material(const mesh::DeclaredMaterial& material)
                      number(material.density));
 }
 
+std::string list(const auto& numbers)
+{
+  std::string text;
+  for (const double x : numbers) text += (text.empty() ? "" : ", ") + number(x);
+  return "[" + text + "]";
+}
+
+std::string thickness(const mesh::DeclaredShell& shell)
+{
+  if (!shell.table) return number(shell.thickness);
+  if (shell.table->at.size() == 1) return number(shell.table->values.front());
+  return fmt::format("{{ over = \"{}\", at = {}, values = {} }}", shell.table->over,
+                     list(shell.table->at), list(shell.table->values));
+}
+
 std::string shell(const mesh::DeclaredShell& shell)
 {
   std::string text =
       fmt::format("\n[[section]]\ngroup = {}\ntype = \"shell\"\nmaterial = {}\nthickness = {}\n",
-                  quoted(shell.group), quoted(shell.material), number(shell.thickness));
+                  quoted(shell.group), quoted(shell.material), thickness(shell));
   if (shell.offset != 0.0) text += fmt::format("offset = {}\n", number(shell.offset));
   return text;
 }
@@ -84,14 +99,6 @@ std::string support(const mesh::DeclaredSupport& support)
         fmt::format("{}\"{}\"", dofs.empty() ? "" : ", ", component_names[std::size_t(component)]);
   }
   return fmt::format("\n[[support]]\ngroup = {}\ndofs = [{}]\n", quoted(support.group), dofs);
-}
-
-template <std::size_t n>
-std::string list(const std::array<double, n>& numbers)
-{
-  std::string text;
-  for (const double x : numbers) text += (text.empty() ? "" : ", ") + number(x);
-  return "[" + text + "]";
 }
 
 template <std::size_t n>

@@ -562,4 +562,30 @@ double fold_angle(const Vector& a, const Vector& b)
   return std::acos(std::clamp(-dot(a, b), -1.0, 1.0));
 }
 
+std::vector<double> face_functions(std::size_t n_nodes, int order, double r, double s)
+{
+  const auto p = static_cast<std::size_t>(order), n_corners = n_nodes / p;
+  std::vector<double> N(n_nodes, 0.0);
+  if (n_corners == 3) {
+    const std::array<double, 3> L{1.0 - r - s, r, s};
+    for (std::size_t i = 0; i < 3; ++i) {
+      N[i] = order == 1 ? L[i] : L[i] * (2.0 * L[i] - 1.0);
+      if (order == 2) N[3 + i] = 4.0 * L[i] * L[(i + 1) % 3];
+    }
+    return N;
+  }
+  const std::array<double, 4> along{r, s, -r, -s}, across{1.0 - s, 1.0 + r, 1.0 + s, 1.0 - r};
+  for (std::size_t edge = 0; edge < 4; ++edge) {
+    for (std::size_t k = 0; k <= p; ++k) {
+      double of_edge = 0.5 * across[edge];
+      const auto at = [&](std::size_t i) { return -1.0 + 2.0 * double(i) / double(p); };
+      for (std::size_t i = 0; i <= p; ++i)
+        if (i != k) of_edge *= (along[edge] - at(i)) / (at(k) - at(i));
+      N[k == 0 ? edge : k == p ? (edge + 1) % 4 : 4 + edge * (p - 1) + k - 1] += of_edge;
+    }
+    N[edge] -= 0.25 * across[edge] * across[(edge + 3) % 4];
+  }
+  return N;
+}
+
 }  // namespace chladni::mesh

@@ -66,6 +66,10 @@ struct FreeFace {
 /// The skin of the solids of a mesh.
 std::vector<FreeFace> free_faces(const Mesh& mesh);
 
+/// The shape functions of a face of a solid at a point: quadratic in a triangle; in a quadrilateral
+/// (r, s in [-1, 1]) those of the edges, each linear across, less the bilinear ones of the corners.
+std::vector<double> face_functions(std::size_t n_nodes, int order, double r, double s);
+
 /// The triangles and quadrilaterals that a face is drawn by, as places in `FreeFace::nodes`.
 /// @param with_edge_nodes  not only its corners
 std::vector<LatticeCell> face_cells(int n_nodes, int order, bool with_edge_nodes);

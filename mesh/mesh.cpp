@@ -54,6 +54,8 @@ void drop_unused_nodes(Mesh& mesh, std::span<const std::string> kept)
   for (const Group& group : mesh.groups)
     if (std::ranges::find(kept, group.name) != kept.end())
       for (const int node : group.nodes) renumbered[node] = 0;
+  for (const Equation& equation : mesh.equations)
+    for (const Equation::Term& term : equation.terms) renumbered[term.node] = 0;
   int n = 0;
   for (std::size_t i = 0; i < renumbered.size(); ++i) {
     if (renumbered[i] < 0) continue;
@@ -69,6 +71,8 @@ void drop_unused_nodes(Mesh& mesh, std::span<const std::string> kept)
     for (int& node : group.nodes) node = renumbered[node];
     std::erase(group.nodes, -1);
   }
+  for (Equation& equation : mesh.equations)
+    for (Equation::Term& term : equation.terms) term.node = renumbered[term.node];
 }
 
 std::string checksum(const Mesh& mesh)
@@ -80,6 +84,13 @@ std::string checksum(const Mesh& mesh)
   for (const FaceNode& on_face : mesh.face_nodes) {
     hash.add(std::span(on_face.nodes));
     hash.add(std::span(on_face.weights));
+  }
+  for (const Equation& equation : mesh.equations) {
+    for (const auto& [node, component, factor] : equation.terms) {
+      hash.add(std::span(&node, 1));
+      hash.add(std::span(&component, 1));
+      hash.add(std::span(&factor, 1));
+    }
   }
   return fmt::format("{:016x}", hash.value());
 }
@@ -211,34 +222,6 @@ Group ring_group(Mesh& mesh, const RingOptions& ring)
                                     ring.name, largest_move));
   }
   return group;
-}
-
-/// The shape functions of a face of a solid at a point: quadratic in a triangle; in a quadrilateral
-/// (r, s in [-1, 1]) those of the edges, each linear across, less the bilinear ones of the corners.
-std::vector<double> face_functions(std::size_t n_nodes, int order, double r, double s)
-{
-  const auto p = static_cast<std::size_t>(order), n_corners = n_nodes / p;
-  std::vector<double> N(n_nodes, 0.0);
-  if (n_corners == 3) {
-    const std::array<double, 3> L{1.0 - r - s, r, s};
-    for (std::size_t i = 0; i < 3; ++i) {
-      N[i] = order == 1 ? L[i] : L[i] * (2.0 * L[i] - 1.0);
-      if (order == 2) N[3 + i] = 4.0 * L[i] * L[(i + 1) % 3];
-    }
-    return N;
-  }
-  const std::array<double, 4> along{r, s, -r, -s}, across{1.0 - s, 1.0 + r, 1.0 + s, 1.0 - r};
-  for (std::size_t edge = 0; edge < 4; ++edge) {
-    for (std::size_t k = 0; k <= p; ++k) {
-      double of_edge = 0.5 * across[edge];
-      const auto at = [&](std::size_t i) { return -1.0 + 2.0 * double(i) / double(p); };
-      for (std::size_t i = 0; i <= p; ++i)
-        if (i != k) of_edge *= (along[edge] - at(i)) / (at(k) - at(i));
-      N[k == 0 ? edge : k == p ? (edge + 1) % 4 : 4 + edge * (p - 1) + k - 1] += of_edge;
-    }
-    N[edge] -= 0.25 * across[edge] * across[(edge + 3) % 4];
-  }
-  return N;
 }
 
 /// A point of a face, by the functions of the face there.

@@ -73,6 +73,17 @@ struct FaceNode {
   std::vector<double> weights;
 };
 
+/// A linear equation between motions of nodes, sum of its terms = 0.
+struct Equation {
+  struct Term {
+    int node;
+    int component;  ///< 0 to 5
+    double factor;  ///< of a displacement in m, a rotation in rad
+  };
+  std::string place;  ///< in the file: "line 7: *EQUATION"
+  std::vector<Term> terms;
+};
+
 struct NodalMatrices;
 
 /// A mesh of lines, surfaces and solids in space; the same on every rank.
@@ -84,6 +95,7 @@ struct Mesh {
   std::vector<std::string> notes;  ///< for the user: what was changed or left out on reading
   Sectors sectors = {};
   std::vector<FaceNode> face_nodes = {};  ///< of rings on faces
+  std::vector<Equation> equations = {};   ///< of a deck
   std::string made_by = {};               ///< path of the library that made it; empty: this program
   /// Matrices of another program for the nodes; its elements are then the geometry alone.
   std::shared_ptr<const NodalMatrices> matrices = {};

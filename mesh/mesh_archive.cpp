@@ -36,6 +36,15 @@ void transfer_face_node(auto& archive, auto& on_face)
   archive.all(node, nodes, weights);
 }
 
+void transfer_equation(auto& archive, auto& equation)
+{
+  archive(equation.place);
+  archive.each(equation.terms, [](auto& a, auto& term) {
+    auto& [node, component, factor] = term;
+    a.all(node, component, factor);
+  });
+}
+
 void transfer_mesh(auto& archive, auto& mesh)
 {
   archive(mesh.node_numbers);
@@ -46,6 +55,7 @@ void transfer_mesh(auto& archive, auto& mesh)
   archive(mesh.sectors.count);
   archive(mesh.sectors.pairs);
   archive.each(mesh.face_nodes, [](auto& a, auto& on_face) { transfer_face_node(a, on_face); });
+  archive.each(mesh.equations, [](auto& a, auto& equation) { transfer_equation(a, equation); });
   archive(mesh.made_by);
 }
 
@@ -163,6 +173,13 @@ void check_unpacked(const Mesh& mesh)
     check_indices({on_face.node}, 0, mesh.positions.size(), "a node on a face that is not there");
     check_indices(on_face.nodes, 0, mesh.positions.size(), "a face of nodes that are not there");
     require(on_face.nodes.size() == on_face.weights.size(), "a node on a face without weights");
+  }
+  for (const Equation& equation : mesh.equations) {
+    require(!equation.terms.empty(), "an equation without terms");
+    for (const auto& [node, component, factor] : equation.terms) {
+      check_indices({node}, 0, mesh.positions.size(), "an equation of no node");
+      require(component >= 0 && component < 6, "an equation of no component");
+    }
   }
   if (!mesh.matrices) return;
   require(mesh.matrices->n_components.size() + mesh.face_nodes.size() == mesh.positions.size(),

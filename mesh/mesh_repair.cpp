@@ -88,9 +88,12 @@ void replace_nodes(Mesh& mesh, const std::vector<int>& by)
     std::ranges::sort(group.nodes);
     group.nodes.erase(std::unique(group.nodes.begin(), group.nodes.end()), group.nodes.end());
   }
+  for (Equation& equation : mesh.equations)
+    for (Equation::Term& term : equation.terms) term.node = by[term.node];
 }
 
-/// Pairs that no coupling joins: not both of their nodes are in one of the groups.
+/// Pairs that neither a coupling joins nor equations: not both of their nodes are in one of the
+/// groups or in equations, and none belongs to equations alone.
 std::vector<std::array<int, 2>> without_coupled(std::vector<std::array<int, 2>> pairs,
                                                 const Mesh& mesh,
                                                 const std::vector<std::string>& groups)
@@ -99,8 +102,15 @@ std::vector<std::array<int, 2>> without_coupled(std::vector<std::array<int, 2>> 
   for (const Group& group : mesh.groups)
     if (std::ranges::find(groups, group.name) != groups.end())
       coupled.insert(group.nodes.begin(), group.nodes.end());
+  std::set<int> alone;
+  for (const Equation& equation : mesh.equations)
+    for (const Equation::Term& term : equation.terms) alone.insert(term.node);
+  coupled.insert(alone.begin(), alone.end());
+  for (const ElementBlock& block : mesh.blocks)
+    for (const int node : block.nodes) alone.erase(node);
   std::erase_if(pairs, [&](const auto& pair) {
-    return coupled.contains(pair[0]) && coupled.contains(pair[1]);
+    return (coupled.contains(pair[0]) && coupled.contains(pair[1])) || alone.contains(pair[0]) ||
+           alone.contains(pair[1]);
   });
   return pairs;
 }

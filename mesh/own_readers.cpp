@@ -74,6 +74,9 @@ void scale(Mesh& mesh, double metres)
 {
   for (auto& x : mesh.positions)
     for (double& coordinate : x) coordinate *= metres;
+  for (Equation& equation : mesh.equations)
+    for (Equation::Term& term : equation.terms)
+      if (term.component >= 3) term.factor *= metres;
 }
 
 Declarations declarations_here(const MeshOptions& options, const DeckUnits& units)

@@ -298,6 +298,11 @@ void find_sector_edges(Mesh& mesh, int count)
   constexpr double round_off = 1e-9;
   mesh.sectors = {.count = count, .pairs = {}};
   if (count == 1) return;
+  if (!mesh.equations.empty()) {
+    throw Error(
+        fmt::format("sectors = {}: {} is an equation between nodes, which a sector cannot have",
+                    count, mesh.equations.front().place));
+  }
   const std::vector<Segment> segments = boundary(mesh);
   const std::vector<FaceOnSkin> skin = skin_of_solids(mesh);
   const double radius = outer_radius(mesh);
@@ -548,6 +553,7 @@ void keep_elements(ElementBlock& block, const std::vector<int>& elements)
 
 int n_repetitions(const Mesh& mesh)
 {
+  if (!mesh.equations.empty()) return 1;  // which may join nodes of several copies
   constexpr int most = 10000;
   const double radius = outer_radius(mesh);
   int common = 0;  // the number of copies divides that of all elements and all nodes off the axis

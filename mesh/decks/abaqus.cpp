@@ -26,35 +26,34 @@ namespace {
 const std::unordered_map<std::string, int>& section_keywords()
 {
   static const std::unordered_map<std::string, int> all{
-      {"SHELL SECTION", 2}, {"BEAM SECTION", 1}, {"SOLID SECTION", 3}};
+      {"SHELL SECTION", 2}, {"BEAM SECTION", 1}, {"BEAM GENERAL SECTION", 1}, {"SOLID SECTION", 3}};
   return all;
 }
 
 /// Keywords that change nothing of the linear vibrations of isotropic materials.
 const std::set<std::string>& keywords_without_effect()
 {
-  static const std::set<std::string> all{
-      "AMPLITUDE",   "CONDUCTIVITY",       "CREEP",      "CYCLIC HARDENING",
-      "EXPANSION",   "FRICTION",           "HARDENING",  "ORIENTATION",
-      "PLASTIC",     "PHYSICAL CONSTANTS", "RESTART",    "SPECIFIC HEAT",
-      "TIME POINTS", "SURFACE BEHAVIOR",   "USER FIELD", "SURFACE INTERACTION"};
+  static const std::set<std::string> all{"AMPLITUDE",           "CONDUCTIVITY",     "CREEP",
+                                         "CYCLIC HARDENING",    "EXPANSION",        "FRICTION",
+                                         "HARDENING",           "ORIENTATION",      "PLASTIC",
+                                         "PHYSICAL CONSTANTS",  "RESTART",          "SPECIFIC HEAT",
+                                         "TIME POINTS",         "SURFACE BEHAVIOR", "USER FIELD",
+                                         "SURFACE INTERACTION", "DESIGNVARIABLES",  "DASHPOT"};
   return all;
 }
 
 /// What is known, and cannot be a part of a scene.
 constexpr std::pair<const char*, const char*> keywords_refused[] = {
-    {"TIE",
-     "ties surfaces whose nodes need not meet; give both common nodes, or take the matrices "
-     "of the program (mesh.matrices)"},
     {"CONTACT PAIR", "is a contact, and a scene is linear; take it out or join the nodes"},
     {"CONTACT", "is a contact, and a scene is linear; take it out or join the nodes"},
-    {"EQUATION", "is an equation of its own; a scene has rigid couplings, links and averages"},
     {"SHELL GENERAL SECTION",
      "has no thickness and material; take *SHELL SECTION, or the matrices "
      "of the program (mesh.matrices)"},
-    {"BEAM GENERAL SECTION", "is not known; take *BEAM SECTION with RECT, CIRC or PIPE"},
-    {"MASS", "is not known here; write the mass into the scene as [[mass]]"},
-    {"SPRING", "is not known here; write the spring into the scene as [[spring]]"}};
+    {"CYCLIC SYMMETRY MODEL",
+     "is one sector of a body; take it and its *TIE out, turn the axis of the body into z, and say "
+     "sectors = N in [mesh]"},
+    {"SUBMODEL", "moves nodes as another model does; take the supports that the body has"},
+    {"PRE-TENSION SECTION", "loads a bolt by an equation of its own; take the keyword out"}};
 
 const FileElement& type_of_elements(const Keyword& keyword)
 {
@@ -63,6 +62,21 @@ const FileElement& type_of_elements(const Keyword& keyword)
   if (!types.empty()) return types.front();
   if (name.starts_with("C3D")) keyword.refuse(fmt::format("{} is {}", name, no_such_solid));
   keyword.refuse(fmt::format("{} is not known; {} are", name, names_of_elements(Format::abaqus)));
+}
+
+/// Springs, masses and dampers at nodes, and how many these are.
+const std::unordered_map<std::string, std::size_t>& point_types()
+{
+  static const std::unordered_map<std::string, std::size_t> all{
+      {"SPRINGA", 2},  {"SPRING1", 1},  {"SPRING2", 2}, {"MASS", 1},
+      {"DASHPOTA", 2}, {"DASHPOT1", 1}, {"DASHPOT2", 2}};
+  return all;
+}
+
+std::size_t n_nodes_of_elements(const Keyword& keyword)
+{
+  const auto point = point_types().find(keyword.parameter("TYPE"));
+  return point == point_types().end() ? type_of_elements(keyword).n_nodes : point->second;
 }
 
 /// An element as it stands in the file: its number, then its nodes.
@@ -76,7 +90,9 @@ struct ElementRowOfKeyword {
 std::vector<ElementRowOfKeyword> elements_in(const Keyword& keyword)
 {
   constexpr std::size_t full = 16;
-  const std::size_t n_expected = 1 + type_of_elements(keyword).n_nodes;
+  const std::size_t n_expected = 1 + n_nodes_of_elements(keyword);
+  // Of incompatible modes, which early versions of CalculiX count as nodes.
+  const std::size_t n_beyond = keyword.parameter("TYPE") == "C3D8I" ? 3 : 0;
   std::vector<ElementRowOfKeyword> all;
   bool goes_on = false;
   for (const KeywordRow& row : keyword.rows) {
@@ -90,12 +106,190 @@ std::vector<ElementRowOfKeyword> elements_in(const Keyword& keyword)
       ++n;
     }
     goes_on = element.numbers.size() < n_expected && (row.fields.back().empty() || n == full);
+    if (element.numbers.size() <= n_expected + n_beyond && element.numbers.size() > n_expected)
+      element.numbers.resize(n_expected);
     if (goes_on || element.numbers.size() == n_expected) continue;
     keyword.refuse(row, fmt::format("{} numbers instead of that of the element and of {} nodes",
                                     element.numbers.size(), n_expected - 1));
   }
   if (goes_on) keyword.refuse("its last element ends with a comma");
   return all;
+}
+
+/// The one data line of a keyword.
+const KeywordRow& only_row(const Keyword& keyword)
+{
+  if (keyword.rows.size() != 1)
+    keyword.refuse(fmt::format("needs one data line, has {}", keyword.rows.size()));
+  return keyword.rows.front();
+}
+
+/// Components of a boundary condition by its name, from 0.
+std::optional<std::vector<int>> components_named(std::string_view name)
+{
+  if (name == "ENCASTRE") return std::vector<int>{0, 1, 2, 3, 4, 5};
+  if (name == "PINNED") return std::vector<int>{0, 1, 2};
+  if (name == "XSYMM") return std::vector<int>{0, 4, 5};
+  if (name == "YSYMM") return std::vector<int>{1, 3, 5};
+  if (name == "ZSYMM") return std::vector<int>{2, 3, 4};
+  return std::nullopt;
+}
+
+/// Temperatures, pressures and flows.
+bool is_of_no_motion(const Keyword& boundary, const KeywordRow& row)
+{
+  return Keyword::field(row, 1) == "11" || Keyword::field(row, 1) == "0" ||
+         boundary.has("TEMPERATURE") || boundary.has("PRESSURE") || boundary.has("MASS FLOW") ||
+         boundary.has("MASSFLOW");
+}
+
+/// Those that a row of *BOUNDARY holds.
+std::vector<int> held_components(const Keyword& keyword, const KeywordRow& row)
+{
+  if (const auto named = components_named(Keyword::field(row, 1))) return *named;
+  const std::int64_t first = keyword.integer(row, 1, "component");
+  const bool is_one = Keyword::field(row, 2).empty();
+  const std::int64_t last = is_one ? first : keyword.integer(row, 2, "component");
+  if (first > last || last > 6)
+    keyword.refuse(row, fmt::format("{} to {} are no components of 1 to 6", first, last));
+  std::vector<int> held;
+  for (std::int64_t c = first; c <= last; ++c) held.push_back(static_cast<int>(c) - 1);
+  return held;
+}
+
+/// Springs, masses and dampers with the keyword of their property; null where there is none.
+struct AbaqusPoint {
+  std::int64_t number;
+  std::vector<std::int64_t> nodes;
+  const Keyword* elements;
+  const KeywordRow* row;
+  const Keyword* property;
+
+  const std::string& type() const { return elements->parameter("TYPE"); }
+  std::string group(std::size_t end) const
+  {
+    return type() == "MASS" ? fmt::format("mass_{}", number)
+                            : fmt::format("spring_{}_{}", number, end + 1);
+  }
+};
+
+/// The coordinate axis of the line between two nodes; absent of skew ones.
+std::optional<std::size_t> axis_between(const Deck& deck, const std::vector<std::int64_t>& nodes)
+{
+  constexpr double straight = 1e-6;
+  const auto a = deck.nodes.find(nodes[0]), b = deck.nodes.find(nodes[1]);
+  if (a == deck.nodes.end() || b == deck.nodes.end()) return std::nullopt;
+  const Vector along = minus(b->second, a->second);
+  for (std::size_t c = 0; c < 3; ++c)
+    if (std::abs(along[c]) > 0.0 && std::abs(along[c]) >= (1.0 - straight) * norm(along)) return c;
+  return std::nullopt;
+}
+
+/// A bar without bending: an element T3D2 that a solid section names.
+struct AbaqusTruss {
+  std::int64_t number;
+  std::array<std::int64_t, 2> nodes;
+  const Keyword* section;
+  std::string place;
+
+  std::string group() const { return fmt::format("truss_{}", number); }
+};
+
+std::vector<AbaqusTruss> abaqus_trusses(std::span<const Keyword> model, const AbaqusSets& sets)
+{
+  std::map<std::int64_t, const Keyword*> section_of;
+  for (const Keyword& keyword : model)
+    if (keyword.name == "SOLID SECTION" && sets.elements.contains(keyword.parameter("ELSET")))
+      for (const std::int64_t number : sets.elements.at(keyword.parameter("ELSET")))
+        section_of[number] = &keyword;
+  std::vector<AbaqusTruss> trusses;
+  for (const Keyword& keyword : model) {
+    if (keyword.name != "ELEMENT" || keyword.parameter("TYPE") != "T3D2") continue;
+    for (const ElementRowOfKeyword& element : elements_in(keyword)) {
+      const auto section = section_of.find(element.numbers[0]);
+      if (section == section_of.end()) continue;
+      trusses.push_back({.number = element.numbers[0],
+                         .nodes = {element.numbers[1], element.numbers[2]},
+                         .section = section->second,
+                         .place = element.row->place});
+    }
+  }
+  return trusses;
+}
+
+std::vector<AbaqusPoint> abaqus_points(std::span<const Keyword> model, const AbaqusSets& sets)
+{
+  std::map<std::int64_t, const Keyword*> property_of;
+  for (const Keyword& keyword : model) {
+    if (keyword.name != "SPRING" && keyword.name != "MASS") continue;
+    const auto set = sets.elements.find(keyword.parameter("ELSET"));
+    if (set == sets.elements.end())
+      keyword.refuse(fmt::format("there is no element set \"{}\"", keyword.parameter("ELSET")));
+    for (const std::int64_t number : set->second) property_of[number] = &keyword;
+  }
+  std::vector<AbaqusPoint> points;
+  for (const Keyword& keyword : model) {
+    if (keyword.name != "ELEMENT" || !point_types().contains(keyword.parameter("TYPE"))) continue;
+    for (const ElementRowOfKeyword& element : elements_in(keyword)) {
+      const std::int64_t number = element.numbers.front();
+      const auto property = property_of.find(number);
+      points.push_back({.number = number,
+                        .nodes = {element.numbers.begin() + 1, element.numbers.end()},
+                        .elements = &keyword,
+                        .row = element.row,
+                        .property = property == property_of.end() ? nullptr : property->second});
+    }
+  }
+  return points;
+}
+
+/// The axes of the nodes of *TRANSFORM.
+std::map<std::int64_t, DeckAxes> transformed_axes(std::span<const Keyword> model,
+                                                  const AbaqusSets& sets, const Deck& deck)
+{
+  std::map<std::int64_t, DeckAxes> all;
+  for (const Keyword& keyword : model) {
+    if (keyword.name != "TRANSFORM") continue;
+    keyword.expect_only({"NSET", "TYPE"});
+    const bool is_cylindrical = keyword.has("TYPE") && keyword.parameter("TYPE") == "C";
+    if (keyword.has("TYPE") && !is_cylindrical && keyword.parameter("TYPE") != "R")
+      keyword.refuse("is known with TYPE = R and C alone");
+    const KeywordRow& row = only_row(keyword);
+    const auto point = [&](std::size_t first) {
+      Vector x{};
+      for (std::size_t c = 0; c < 3; ++c) x[c] = keyword.real_or(row, first + c, "a length", 0.0);
+      return x;
+    };
+    const Vector a = point(0), b = point(3);
+    const auto straight = [&](const Vector& v) {
+      if (!(norm(v) > 0.0)) keyword.refuse(row, "its two points give no axes");
+      return unit(v);
+    };
+    for (const std::int64_t node : abaqus_nodes(keyword, row, keyword.parameter("NSET"), sets)) {
+      const auto at = deck.nodes.find(node);
+      if (at == deck.nodes.end()) continue;
+      if (is_cylindrical) {
+        const Vector axis = straight(minus(b, a)), arm = minus(at->second, a);
+        Vector radial = arm;
+        for (std::size_t c = 0; c < 3; ++c) radial[c] -= dot(arm, axis) * axis[c];
+        if (norm(radial) <= 1e-9 * norm(arm)) continue;  // on the axis: the global ones
+        radial = unit(radial);
+        all[node] = {radial, cross(axis, radial), axis};
+      } else {
+        const Vector x = straight(a), z = straight(cross(a, b));
+        all[node] = {x, cross(z, x), z};
+      }
+    }
+  }
+  return all;
+}
+
+/// The group of the nodes of a row of *BOUNDARY whose components are global ones.
+std::string name_of_others(const KeywordRow& row)
+{
+  std::string name = "boundary_" + row.place;
+  std::ranges::replace(name, ' ', '_');
+  return name;
 }
 
 class AbaqusReader {
@@ -107,7 +301,27 @@ class AbaqusReader {
   Deck read()
   {
     find_section_sets();
-    for (const Keyword& keyword : abaqus_model(keywords_)) read(keyword);
+    const std::span<const Keyword> model = abaqus_model(keywords_);
+    for (const Keyword& keyword : model)
+      if (keyword.name == "NODE") nodes(keyword);
+    deck_.axes = transformed_axes(model, sets_, deck_);
+    for (const Keyword& keyword : model)
+      if (keyword.name != "NODE") read(keyword);
+    hold_in_axes(model);
+    const NodesOfDeck known(deck_);
+    for (const AbaqusPoint& point : abaqus_points(model, sets_)) add_point(point, known);
+    for (const AbaqusTruss& truss : abaqus_trusses(model, sets_)) {
+      points_[truss.number] = {truss.nodes.begin(), truss.nodes.end()};
+      add_elongation(
+          deck_, known,
+          {.entry = truss.place + ": *ELEMENT", .group = truss.group(), .nodes = truss.nodes});
+      for (const std::size_t end : {0U, 1U}) {
+        deck_
+            .groups[std::size_t(
+                group_index(deck_, fmt::format("{}_{}", truss.group(), end + 1), 0))]
+            .nodes = {truss.nodes[end]};
+      }
+    }
     add_sets();
     couple();
     note_reduced();
@@ -145,19 +359,21 @@ class AbaqusReader {
   void read(const Keyword& keyword)
   {
     static const std::unordered_map<std::string, ReadKeyword> readers{
-        {"NODE", &AbaqusReader::nodes},
         {"ELEMENT", &AbaqusReader::elements},
         {"SURFACE", &AbaqusReader::surface},
         {"INSTANCE", &AbaqusReader::instance},
-        {"BOUNDARY", &AbaqusReader::boundary}};
+        {"BOUNDARY", &AbaqusReader::boundary},
+        {"EQUATION", &AbaqusReader::equations}};
     // Read elsewhere, or nothing to a mesh.
-    static const std::set<std::string> known{"HEADING",  "NSET",       "ELSET",        "MATERIAL",
-                                             "ELASTIC",  "DENSITY",    "COUPLING",     "KINEMATIC",
-                                             "PREPRINT", "RIGID BODY", "DISTRIBUTING", "MPC"};
+    static const std::set<std::string> known{
+        "HEADING",  "NSET",      "ELSET",     "MATERIAL",        "ELASTIC",      "DENSITY",
+        "COUPLING", "KINEMATIC", "PREPRINT",  "RIGID BODY",      "DISTRIBUTING", "MPC",
+        "SPRING",   "MASS",      "TRANSFORM", "NODAL THICKNESS", "TIE"};
     const auto reader = readers.find(keyword.name);
     if (reader != readers.end()) return (this->*reader->second)(keyword);
     if (known.contains(keyword.name) || section_keywords().contains(keyword.name)) return;
-    static const std::set<std::string> begins{"TEMPERATURE", "VELOCITY", "DISPLACEMENT"};
+    static const std::set<std::string> begins{"TEMPERATURE", "VELOCITY", "DISPLACEMENT",
+                                              "PLASTIC STRAIN"};
     const bool is_start = keyword.name == "INITIAL CONDITIONS" && keyword.has("TYPE") &&
                           begins.contains(keyword.parameter("TYPE"));
     if (keyword.name == "DAMPING") {
@@ -169,6 +385,9 @@ class AbaqusReader {
       ++left_out_[keyword.name];
       return;
     }
+    if (keyword.name == "INITIAL CONDITIONS" && keyword.has("TYPE") &&
+        keyword.parameter("TYPE") == "STRESS")
+      keyword.refuse("prestresses the body, which changes its stiffness; a scene begins at rest");
     for (const auto& [name, why] : keywords_refused)
       if (keyword.name == name) keyword.refuse(why);
     keyword.refuse("this keyword is not known; take it out if the model is the same without it");
@@ -208,6 +427,7 @@ class AbaqusReader {
   void elements(const Keyword& keyword)
   {
     keyword.expect_only({"TYPE", "ELSET"});
+    if (point_types().contains(keyword.parameter("TYPE"))) return;
     const FileElement& type = type_of_elements(keyword);
     const std::vector<ElementRowOfKeyword> all = elements_in(keyword);
     for (const ElementRowOfKeyword& element : all)
@@ -222,6 +442,11 @@ class AbaqusReader {
     if (!place_of_.emplace(number, deck_.elements.size()).second)
       keyword.refuse(row, fmt::format("element {} is there twice", number));
     const auto section = section_of_.find(number);
+    if (section != section_of_.end() && section->second.keyword->name == "SOLID SECTION" &&
+        keyword.parameter("TYPE") == "T3D2") {
+      place_of_.erase(number);
+      return;  // a truss
+    }
     const std::string name = section != section_of_.end() ? section->second.set
                              : keyword.has("ELSET")       ? keyword.parameter("ELSET")
                                                           : "ELEMENTS";
@@ -242,6 +467,131 @@ class AbaqusReader {
         deck_element(type, number, {numbers.begin() + 1, numbers.end()}, group));
     deck_.elements.back().place = row.place;
     deck_.elements.back().marks = type.use == ElementUse::marking;
+  }
+
+  /// Its nodes become groups; dampers are left out.
+  void add_point(const AbaqusPoint& point, const NodesOfDeck& known)
+  {
+    points_[point.number] = point.nodes;
+    if (point.type().starts_with("DASHPOT")) {
+      ++left_out_["DASHPOT"];
+      return;
+    }
+    if (point.property == nullptr) {
+      point.elements->refuse(*point.row, fmt::format("element {} has no *{}", point.number,
+                                                     point.type() == "MASS" ? "MASS" : "SPRING"));
+    }
+    if (point.type() == "SPRINGA" && !axis_between(deck_, point.nodes)) {
+      return add_elongation(deck_, known,
+                            {.entry = point.row->place + ": *ELEMENT",
+                             .group = point.group(0),
+                             .nodes = {point.nodes[0], point.nodes[1]}});
+    }
+    for (std::size_t end = 0; end < point.nodes.size(); ++end) {
+      if (!deck_.nodes.contains(point.nodes[end]))
+        point.elements->refuse(*point.row, fmt::format("there is no node {}", point.nodes[end]));
+      const int group = group_index(deck_, point.group(end), 0);
+      deck_.groups[std::size_t(group)].nodes = {point.nodes[end]};
+    }
+  }
+
+  /// The number of terms, then a node or a set, a component and a factor of each, in as many rows
+  /// as it takes.
+  void equations(const Keyword& keyword)
+  {
+    keyword.expect_only({});
+    for (std::size_t i = 0; i < keyword.rows.size();) {
+      const KeywordRow& first = keyword.rows[i];
+      const auto n_fields = 3 * std::size_t(keyword.integer(first, 0, "number of terms"));
+      KeywordRow all{.place = first.place, .fields = {}};
+      for (++i; i < keyword.rows.size() && all.fields.size() < n_fields; ++i) {
+        std::ranges::copy_if(keyword.rows[i].fields, std::back_inserter(all.fields),
+                             [](const std::string& field) { return !field.empty(); });
+      }
+      if (all.fields.size() != n_fields) {
+        keyword.refuse(first,
+                       fmt::format("has {} numbers instead of a node, a component and a factor for "
+                                   "each of its {} terms",
+                                   all.fields.size(), n_fields / 3));
+      }
+      add_equations(keyword, all);
+    }
+  }
+
+  /// One, or one for each node of the sets.
+  void add_equations(const Keyword& keyword, const KeywordRow& row)
+  {
+    std::vector<std::vector<std::int64_t>> nodes;
+    std::size_t n = 1;
+    for (std::size_t k = 0; k < row.fields.size(); k += 3) {
+      nodes.push_back(abaqus_nodes(keyword, row, row.fields[k], sets_));
+      if (nodes.back().size() != 1 && n != 1 && nodes.back().size() != n)
+        keyword.refuse(row, "its sets have different numbers of nodes");
+      n = std::max(n, nodes.back().size());
+    }
+    for (std::size_t e = 0; e < n; ++e) {
+      DeckEquation equation{.entry = row.place + ": *EQUATION", .terms = {}};
+      for (std::size_t t = 0; t < nodes.size(); ++t) {
+        const std::int64_t component = keyword.integer(row, 3 * t + 1, "component");
+        if (component == 11) return;  // of temperatures
+        if (component > 6)
+          keyword.refuse(row, fmt::format("{} is no component of 1 to 6", component));
+        add_term(deck_, equation,
+                 {nodes[t][nodes[t].size() == 1 ? 0 : e], int(component) - 1,
+                  keyword.real(row, 3 * t + 2, "a factor")});
+      }
+      deck_.equations.push_back(std::move(equation));
+    }
+  }
+
+  /// Supports in axes of *TRANSFORM; nodes without such axes get a group of their own.
+  void hold_in_axes(std::span<const Keyword> model)
+  {
+    if (deck_.axes.empty()) return;
+    const NodesOfDeck known(deck_);
+    for (const Keyword& keyword : model) {
+      if (keyword.name != "BOUNDARY") continue;
+      for (const KeywordRow& row : keyword.rows) {
+        if (is_of_no_motion(keyword, row)) continue;
+        const std::vector<int> held = held_components(keyword, row);
+        const auto nodes = abaqus_nodes(keyword, row, row.fields.front(), sets_);
+        const auto others = held_in_basic_axes(deck_, nodes, held);
+        mesh::hold_in_axes(
+            deck_, known, {.entry = row.place + ": *BOUNDARY", .nodes = nodes, .components = held});
+        if (others.size() < nodes.size())
+          deck_.groups[std::size_t(group_index(deck_, name_of_others(row), 0))].nodes = others;
+      }
+    }
+  }
+
+  /// Nodes of the first surface follow faces of the second one.
+  void tie(const Keyword& keyword)
+  {
+    if (keyword.has("CYCLIC SYMMETRY")) {
+      keyword.refuse(
+          "joins the sides of one sector of a body; take it out, turn the axis of the body into z, "
+          "and say sectors = N in [mesh]");
+    }
+    keyword.expect_only({"NAME", "POSITION TOLERANCE", "ADJUST", "TYPE", "NO ROTATION"});
+    for (const KeywordRow& row : keyword.rows) {
+      std::array<std::string, 2> groups;
+      for (std::size_t i = 0; i < 2; ++i) {
+        groups[i] = fmt::format("surface_{}", Keyword::field(row, i));
+        if (std::ranges::find(deck_.groups, groups[i], &DeckGroup::name) == deck_.groups.end())
+          keyword.refuse(row, fmt::format("there is no surface \"{}\"", Keyword::field(row, i)));
+      }
+      const KeywordRow own{
+          .place = keyword.place,
+          .fields = {keyword.has("POSITION TOLERANCE") ? keyword.parameter("POSITION TOLERANCE")
+                                                       : ""}};
+      deck_.ties.push_back(
+          {.entry = row.place + ": *TIE",
+           .nodes = groups[0],
+           .faces = groups[1],
+           .gap = {},
+           .moves = !keyword.has("ADJUST") || keyword.parameter("ADJUST") != "NO"});
+      if (!own.fields.front().empty()) deck_.ties.back().gap = keyword.real(own, 0, "a tolerance");
+    }
   }
 
   void note_reduced()
@@ -350,6 +700,7 @@ class AbaqusReader {
     for (const Keyword& keyword : model) {
       if (keyword.name == "RIGID BODY") rigid_body(keyword);
       if (keyword.name == "MPC") constraints(keyword);
+      if (keyword.name == "TIE") tie(keyword);
     }
     add_leaders(deck_);
   }
@@ -384,7 +735,8 @@ class AbaqusReader {
   /// Nodes of TIE NSET, of PIN NSET (of solids, which do not turn), and of the elements of ELSET.
   void rigid_body(const Keyword& keyword)
   {
-    keyword.expect_only({"REF NODE", "TIE NSET", "PIN NSET", "ELSET", "NSET", "POSITION"});
+    keyword.expect_only(
+        {"REF NODE", "TIE NSET", "PIN NSET", "ELSET", "NSET", "POSITION", "ROT NODE"});
     if (keyword.has("POSITION") && keyword.parameter("POSITION") != "INPUT")
       keyword.refuse("moves its reference node to the centre of mass; take POSITION = INPUT");
     const KeywordRow row{keyword.place, {}};
@@ -467,27 +819,37 @@ class AbaqusReader {
     const auto followers = std::ranges::find(deck_.groups, group, &DeckGroup::name);
     if (followers == deck_.groups.end())
       keyword.refuse(fmt::format("there is no surface \"{}\"", keyword.parameter("SURFACE")));
-    check_components(*kind, !averages && !have_rotations(deck_, followers->nodes));
-    deck_.couplings.push_back({.entry = fmt::format("{}: *COUPLING", keyword.place),
-                               .reference = nodes.front(),
-                               .group = group,
-                               .averages = averages});
+    const std::string entry = fmt::format("{}: *COUPLING", keyword.place);
+    const std::vector<int> coupled = coupled_components(*kind);
+    const bool have_turns = averages || have_rotations(deck_, followers->nodes);
+    const auto is_coupled = [&](int c) { return std::ranges::find(coupled, c) != coupled.end(); };
+    if (is_coupled(0) && is_coupled(1) && is_coupled(2) &&
+        (!have_turns || (is_coupled(3) && is_coupled(4) && is_coupled(5)))) {
+      deck_.couplings.push_back(
+          {.entry = entry, .reference = nodes.front(), .group = group, .averages = averages});
+      return;
+    }
+    if (averages) kind->refuse("couples not all components 1 to 6; a scene's average does");
+    const NodesOfDeck known(deck_);
+    for (const std::int64_t node : followers->nodes)
+      for (const int c : coupled)
+        if (c < 3 || known.rotating.contains(node))
+          add_rigid_equations(deck_, entry, nodes.front(), node, {c});
   }
 
-  /// All six, which need no data line; 1 to 3 suffice for nodes of solids, which do not turn.
-  static void check_components(const Keyword& kind, bool is_of_solids)
+  /// From 0; all six need no data line.
+  static std::vector<int> coupled_components(const Keyword& kind)
   {
-    std::vector<bool> found(6, kind.rows.empty());
+    if (kind.rows.empty()) return {0, 1, 2, 3, 4, 5};
+    std::vector<int> all;
     for (const KeywordRow& row : kind.rows) {
       const std::int64_t first = kind.integer(row, 0, "component");
       const bool is_one = Keyword::field(row, 1).empty();
       const std::int64_t last = is_one ? first : kind.integer(row, 1, "component");
       for (std::int64_t c = first; c <= std::min<std::int64_t>(last, 6); ++c)
-        found[std::size_t(c) - 1] = true;
+        all.push_back(static_cast<int>(c) - 1);
     }
-    const auto end = is_of_solids ? found.begin() + 3 : found.end();
-    if (std::find(found.begin(), end, false) != end)
-      kind.refuse("couples not all components 1 to 6; a scene's coupling does");
+    return all;
   }
 
   /// A node that is named by its number gets a group.
@@ -504,8 +866,13 @@ class AbaqusReader {
   void add_sets()
   {
     for (const auto& [name, numbers] : sets_.nodes) {
-      const int group = group_index(deck_, name_of_node_set(name, sets_), 0);
-      deck_.groups[std::size_t(group)].nodes = numbers;
+      std::vector<std::int64_t>& nodes =
+          deck_.groups[std::size_t(group_index(deck_, name_of_node_set(name, sets_), 0))].nodes;
+      std::ranges::copy_if(numbers, std::back_inserter(nodes),
+                           [&](std::int64_t node) { return deck_.nodes.contains(node); });
+      if (nodes.size() == numbers.size()) continue;
+      deck_.notes.push_back(fmt::format("*NSET {}: {} of its nodes are not there, and left out",
+                                        name, numbers.size() - nodes.size()));
     }
     for (const auto& [name, numbers] : sets_.elements) {
       const auto is_used = std::ranges::find(deck_.groups, name, &DeckGroup::name);
@@ -513,6 +880,10 @@ class AbaqusReader {
       DeckGroup& group = deck_.groups[std::size_t(group_index(deck_, name, 0))];
       group.elements = numbers;
       for (const std::int64_t number : numbers) {
+        if (const auto point = points_.find(number); point != points_.end()) {
+          group.nodes.insert(group.nodes.end(), point->second.begin(), point->second.end());
+          continue;
+        }
         const auto found = place_of_.find(number);
         if (found == place_of_.end())
           throw Error(fmt::format("element set \"{}\": there is no element {}", name, number));
@@ -532,6 +903,7 @@ class AbaqusReader {
   };
   std::unordered_map<std::int64_t, SectionOfSet> section_of_;  ///< by element
   std::unordered_map<std::int64_t, std::size_t> place_of_;     ///< of elements in the deck
+  std::map<std::int64_t, std::vector<std::int64_t>> points_;   ///< nodes of springs and masses
   std::map<std::string, int> left_out_;                        ///< keywords
   std::map<std::string, std::size_t> n_reduced_;               ///< elements by type
 };
@@ -564,63 +936,76 @@ ProfileMoments pipe(double outer, double inner, double shear_factor)
   return {pi * (outer * outer - inner * inner), I, I, 2.0 * I, shear_factor};
 }
 
+/// A thin-walled box: width a along n1, height b, walls t_1 (at the end of n1) to t_4 around it.
+ProfileMoments box(const Keyword& section, const KeywordRow& row)
+{
+  std::array<double, 6> d{};
+  for (std::size_t i = 0; i < d.size(); ++i) d[i] = section.real(row, i, "a length of the profile");
+  const auto [a, b, t_1, t_2, t_3, t_4] = d;
+  if (t_1 != t_3 || t_2 != t_4) {
+    section.refuse(
+        row, "walls of two thicknesses: the centroid and the shear centre must be in the middle");
+  }
+  if (!(2.0 * t_1 < a && 2.0 * t_2 < b))
+    section.refuse(row, "its walls are thicker than half of it");
+  const ProfileMoments outer = rectangle_moments(a, b),
+                       inner = rectangle_moments(a - 2.0 * t_1, b - 2.0 * t_2);
+  const double w = a - t_1, h = b - t_2;  // between the middles of the walls
+  return {outer.area - inner.area, outer.of_x_squared - inner.of_x_squared,
+          outer.of_y_squared - inner.of_y_squared, 2.0 * w * w * h * h / (w / t_2 + h / t_1), 0.44};
+}
+
 ProfileMoments moments(const Keyword& section, const KeywordRow& row)
 {
   const std::string& kind = section.parameter("SECTION");
   const double first = section.real(row, 0, "a length of the profile");
+  const bool is_rectangle = kind == "RECT" || kind == "RECTANGULAR";
   if (kind == "CIRC") return pipe(first, 0.0, 0.89);
-  if (kind != "RECT" && kind != "PIPE")
-    section.refuse(fmt::format("the profile {} is not known; RECT, CIRC and PIPE are", kind));
+  if (!is_rectangle && kind != "PIPE" && kind != "BOX")
+    section.refuse(fmt::format("the profile {} is not known; RECT, CIRC, PIPE and BOX are", kind));
   const double second = section.real(row, 1, "a length of the profile");
-  if (kind == "RECT") return rectangle_moments(first, second);
+  if (is_rectangle) return rectangle_moments(first, second);
+  if (kind == "BOX") return box(section, row);
   if (!(second < first)) section.refuse(row, "the wall of the pipe is thicker than its radius");
   return pipe(first, first - second, 0.53);
-}
-
-/// The one data line of a keyword.
-const KeywordRow& only_row(const Keyword& keyword)
-{
-  if (keyword.rows.size() != 1)
-    keyword.refuse(fmt::format("needs one data line, has {}", keyword.rows.size()));
-  return keyword.rows.front();
-}
-
-/// Components of a boundary condition by its name, from 0.
-std::optional<std::vector<int>> components_named(std::string_view name)
-{
-  if (name == "ENCASTRE") return std::vector<int>{0, 1, 2, 3, 4, 5};
-  if (name == "PINNED") return std::vector<int>{0, 1, 2};
-  if (name == "XSYMM") return std::vector<int>{0, 4, 5};
-  if (name == "YSYMM") return std::vector<int>{1, 3, 5};
-  if (name == "ZSYMM") return std::vector<int>{2, 3, 4};
-  return std::nullopt;
 }
 
 class AbaqusDeclarer {
  public:
   AbaqusDeclarer(std::span<const Keyword> keywords, const Deck& deck, const DeckUnits& units)
-      : model_(abaqus_model(keywords)), sets_(abaqus_sets(keywords)), units_(units), holders_(deck)
+      : model_(abaqus_model(keywords)),
+        sets_(abaqus_sets(keywords)),
+        deck_(deck),
+        units_(units),
+        holders_(deck)
   {}
 
-  Declarations declare(const Deck& deck)
+  Declarations declare()
   {
+    for (const Keyword& keyword : model_)
+      if (keyword.name == "NODAL THICKNESS") thicknesses(keyword);
     for (std::size_t i = 0; i < model_.size(); ++i) {
       const Keyword& keyword = model_[i];
       if (keyword.name == "MATERIAL") material(i);
       if (keyword.name == "SHELL SECTION") shell(keyword);
-      if (keyword.name == "BEAM SECTION") beam(keyword);
-      if (keyword.name == "SOLID SECTION") solid(keyword);
+      if (keyword.name == "BEAM SECTION" || keyword.name == "BEAM GENERAL SECTION") beam(keyword);
+      if (keyword.name == "SOLID SECTION" && has_solids(keyword)) solid(keyword);
     }
     for (const DeclaredMaterial& material : materials_)
       if (material.density > 0.0 || all_.uses(material.name))
         all_.add(material, keyword_of_.at(material.name)->place);
-    declare_couplings(deck, units_, holders_, all_);
+    declare_couplings(deck_, units_, holders_, all_);
     for (const Keyword& keyword : model_)
       if (keyword.name == "BOUNDARY") boundary(keyword);
-    for (std::size_t g = 0; g < deck.groups.size(); ++g) {
-      const DeckGroup& group = deck.groups[g];
+    for (const AbaqusPoint& point : abaqus_points(model_, sets_)) {
+      if (point.type() == "MASS") mass(point);
+      if (point.type().starts_with("SPRING")) spring(point);
+    }
+    for (const AbaqusTruss& one : abaqus_trusses(model_, sets_)) truss(one);
+    for (std::size_t g = 0; g < deck_.groups.size(); ++g) {
+      const DeckGroup& group = deck_.groups[g];
       if (group.dimension == 0 || all_.has_section(group.name)) continue;
-      const auto element = std::ranges::find(deck.elements, int(g), &DeckElement::group);
+      const auto element = std::ranges::find(deck_.elements, int(g), &DeckElement::group);
       if (element->marks) continue;
       throw Error(fmt::format("{}: *ELEMENT: element {} is of \"{}\", which no section names",
                               element->place, element->number, group.name));
@@ -694,7 +1079,156 @@ class AbaqusDeclarer {
     all_.shells.push_back({.group = keyword.parameter("ELSET"),
                            .material = keyword.parameter("MATERIAL"),
                            .thickness = thickness,
+                           .table = table_of(keyword, thickness),
                            .offset = of_thickness == 0.0 ? 0.0 : -of_thickness * thickness});
+  }
+
+  /// Those of *NODAL THICKNESS, of nodes or sets.
+  void thicknesses(const Keyword& keyword)
+  {
+    keyword.expect_only({});
+    for (const KeywordRow& row : keyword.rows)
+      for (const std::int64_t node : abaqus_nodes(keyword, row, row.fields.front(), sets_))
+        thickness_of_[node] = keyword.real(row, 1, "the thickness") * units_.length;
+  }
+
+  /// The thicknesses of the nodes of a section as a table over one coordinate.
+  /// @param thickness  m, of nodes without one of their own
+  std::optional<DeclaredShell::Table> table_of(const Keyword& section, double thickness) const
+  {
+    std::set<std::int64_t> nodes;
+    for (const DeckElement& element : deck_.elements) {
+      if (element.group >= 0 &&
+          deck_.groups[std::size_t(element.group)].name == section.parameter("ELSET"))
+        nodes.insert(element.nodes.begin(), element.nodes.end());
+    }
+    nodes.erase(0);
+    if (std::ranges::none_of(nodes, [&](auto node) { return thickness_of_.contains(node); }))
+      return std::nullopt;
+    constexpr std::array names{"x", "y", "z", "radius"};
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      std::map<double, double> table;
+      const bool is_function = std::ranges::all_of(nodes, [&](std::int64_t node) {
+        const auto found = thickness_of_.find(node);
+        const double own = found == thickness_of_.end() ? thickness : found->second;
+        const Vector& x = deck_.nodes.at(node);
+        // Nodes of one row differ by round-off.
+        const double at = (c < 3 ? x[c] : std::hypot(x[0], x[1])) * units_.length;
+        constexpr double digits = 1e-6;
+        const auto near = table.lower_bound(at - digits * std::abs(at) - 1e-12);
+        if (near != table.end() && std::abs(near->first - at) <= digits * std::abs(at) + 1e-12)
+          return near->second == own;
+        table.emplace(at, own);
+        return true;
+      });
+      if (!is_function) continue;
+      DeclaredShell::Table found{.over = names[c], .at = {}, .values = {}};
+      for (const auto& [at, value] : table) {
+        found.at.push_back(at);
+        found.values.push_back(value);
+      }
+      return found;
+    }
+    section.refuse(
+        "the *NODAL THICKNESS of its nodes is no function of x, y, z or the radius, as a scene has "
+        "it; give parts of one thickness sections of their own");
+  }
+
+  void mass(const AbaqusPoint& point)
+  {
+    point.property->expect_only({"ELSET"});
+    all_.masses.push_back(
+        {.at = holder(point, 0),
+         .mass = point.property->real(only_row(*point.property), 0, "the mass") * units_.mass(),
+         .inertia = {},
+         .offset = {}});
+  }
+
+  /// The group of a node, or its name as the reference node of a coupling.
+  std::string holder(const AbaqusPoint& point, std::size_t end)
+  {
+    return told(*point.elements, point.row->place,
+                [&] { return *holders_.of(point.group(end), {point.nodes[end]}).begin(); });
+  }
+
+  /// Between two nodes along a coordinate axis, or in a component; a node of no element that is
+  /// held is the ground.
+  void spring(const AbaqusPoint& point)
+  {
+    const Keyword& property = *point.property;
+    property.expect_only({"ELSET"});
+    const bool is_axial = point.type() == "SPRINGA";
+    if (property.rows.size() != (is_axial ? 1U : 2U)) {
+      property.refuse(
+          "needs the stiffness on a line, and before it the components of SPRING1 and 2");
+    }
+    const double k = property.real(property.rows.back(), 0, "the stiffness");
+    if (k < 0.0) property.refuse("its stiffness is negative");
+    std::size_t component = 0;
+    if (is_axial) {
+      const auto axis = axis_between(deck_, point.nodes);
+      if (!axis) {
+        all_.springs.push_back(
+            {.at = point.group(0), .stiffness = {k * units_.force / units_.length}});
+        return;
+      }
+      component = *axis;
+    } else {
+      const KeywordRow& row = property.rows.front();
+      const std::int64_t c = property.integer(row, 0, "component");
+      if (c > 6 || (point.nodes.size() == 2 && property.integer(row, 1, "component") != c))
+        property.refuse(row, "joins two components; a spring of a scene acts in one of 1 to 6");
+      component = std::size_t(c) - 1;
+    }
+    if (deck_.axes.contains(point.nodes.front()))
+      property.refuse(fmt::format("node {} has a *TRANSFORM", point.nodes.front()));
+    std::vector<std::size_t> ends;
+    for (std::size_t end = 0; end < point.nodes.size(); ++end)
+      if (!is_ground(point.nodes[end], int(component))) ends.push_back(end);
+    if (ends.empty()) return;
+    DeclaredSpring spring{.at = holder(point, ends.front()), .stiffness = {}};
+    if (ends.size() == 2) spring.to = holder(point, ends.back());
+    spring.stiffness[component] =
+        k * (component < 3 ? units_.force / units_.length : units_.force * units_.length);
+    all_.springs.push_back(spring);
+  }
+
+  bool is_ground(std::int64_t node, int component) const
+  {
+    if (holders_.is_in_mesh(node) || holders_.is_reference(node)) return false;
+    const auto held = held_.find(node);
+    return held != held_.end() && held->second.contains(component);
+  }
+
+  /// A spring for the elongation, a mass of half of the bar at each end.
+  void truss(const AbaqusTruss& truss)
+  {
+    const Keyword& section = *truss.section;
+    section.expect_only({"ELSET", "MATERIAL"});
+    const auto material =
+        std::ranges::find(materials_, section.parameter("MATERIAL"), &DeclaredMaterial::name);
+    if (material == materials_.end())
+      section.refuse(fmt::format("there is no material \"{}\"", section.parameter("MATERIAL")));
+    const double area = section.real(only_row(section), 0, "the area") * units_.area();
+    const double length =
+        norm(minus(deck_.nodes.at(truss.nodes[1]), deck_.nodes.at(truss.nodes[0]))) * units_.length;
+    all_.springs.push_back({.at = truss.group(), .stiffness = {material->young * area / length}});
+    for (const std::size_t end : {0U, 1U}) {
+      if (!(material->density > 0.0)) break;
+      const std::string group = fmt::format("{}_{}", truss.group(), end + 1);
+      all_.masses.push_back({.at = *holders_.of(group, {truss.nodes[end]}).begin(),
+                             .mass = 0.5 * material->density * area * length,
+                             .inertia = {},
+                             .offset = {}});
+    }
+  }
+
+  /// Not of trusses alone.
+  bool has_solids(const Keyword& section) const
+  {
+    const auto group =
+        std::ranges::find(deck_.groups, section.parameter("ELSET"), &DeckGroup::name);
+    return group == deck_.groups.end() || group->dimension > 0;
   }
 
   void solid(const Keyword& keyword)
@@ -725,31 +1259,37 @@ class AbaqusDeclarer {
                           .orientation = unit(n1)});
   }
 
-  static std::vector<int> components(const Keyword& keyword, const KeywordRow& row)
-  {
-    if (const auto named = components_named(Keyword::field(row, 1))) return *named;
-    const std::int64_t first = keyword.integer(row, 1, "component");
-    const bool is_one = Keyword::field(row, 2).empty();
-    const std::int64_t last = is_one ? first : keyword.integer(row, 2, "component");
-    if (first > last || last > 6)
-      keyword.refuse(row, fmt::format("{} to {} are no components of 1 to 6", first, last));
-    if (keyword.real_or(row, 3, "a displacement", 0.0) != 0.0)
-      keyword.refuse(row, "prescribes a displacement; a scene's support holds at zero only");
-    std::vector<int> held;
-    for (std::int64_t c = first; c <= last; ++c) held.push_back(static_cast<int>(c) - 1);
-    return held;
-  }
-
   void boundary(const Keyword& keyword)
   {
-    keyword.expect_only({"AMPLITUDE", "OP", "FIXED"});
+    keyword.expect_only(
+        {"AMPLITUDE", "OP", "FIXED", "TEMPERATURE", "PRESSURE", "MASS FLOW", "MASSFLOW"});
+    const auto moves = [&](const KeywordRow& row) {
+      return keyword.real_or(row, 3, "a displacement", 0.0) != 0.0;
+    };
+    const auto moved = std::ranges::find_if(keyword.rows, moves);
+    if (moved != keyword.rows.end()) {
+      all_.notes.push_back(fmt::format(
+          "{}: *BOUNDARY prescribes a displacement; small vibrations have it held at zero",
+          moved->place));
+    }
     for (const KeywordRow& row : keyword.rows) {
       const std::string& name = row.fields.front();
-      if (Keyword::field(row, 1) == "11") continue;  // a temperature
-      const std::string group =
+      if (is_of_no_motion(keyword, row)) continue;
+      std::string group =
           keyword.is_integer(name) ? "boundary_" + name : name_of_node_set(name, sets_);
-      const std::vector<std::int64_t> nodes = abaqus_nodes(keyword, row, name, sets_);
-      const std::vector<int> held = components(keyword, row);
+      std::vector<std::int64_t> nodes = abaqus_nodes(keyword, row, name, sets_);
+      const std::vector<int> held = held_components(keyword, row);
+      for (const std::int64_t node : nodes) held_[node].insert(held.begin(), held.end());
+      const std::vector<std::int64_t> others =
+          told(keyword, row.place, [&] { return holders_.held_in_basic_axes(deck_, nodes, held); });
+      if (others.size() < nodes.size()) {
+        all_.notes.push_back(
+            fmt::format("{}: *BOUNDARY in axes of *TRANSFORM holds as an equation, "
+                        "which the mesh has and the scene does not show",
+                        row.place));
+        group = name_of_others(row);
+        nodes = others;
+      }
       const std::vector<std::int64_t> supported =
           supported_nodes(holders_, row.place + ": *BOUNDARY", nodes, all_);
       for (const std::string& holder :
@@ -760,8 +1300,11 @@ class AbaqusDeclarer {
 
   std::span<const Keyword> model_;
   AbaqusSets sets_;
+  const Deck& deck_;
   DeckUnits units_;
   Holders holders_;
+  std::map<std::int64_t, std::set<int>> held_;   ///< components of nodes
+  std::map<std::int64_t, double> thickness_of_;  ///< m, of nodes
   std::vector<DeclaredMaterial> materials_;
   std::map<std::string, const Keyword*> keyword_of_;  ///< by the name of the material
   Declarations all_;
@@ -772,7 +1315,7 @@ class AbaqusDeclarer {
 Declarations abaqus_declarations(std::span<const Keyword> keywords, const Deck& deck,
                                  const DeckUnits& units)
 {
-  return AbaqusDeclarer(keywords, deck, units).declare(deck);
+  return AbaqusDeclarer(keywords, deck, units).declare();
 }
 
 namespace {

@@ -207,8 +207,8 @@ class Flattening {
 
   Keyword in_scope(Keyword keyword, const Scope& scope) const
   {
-    static const std::set<std::string> names{"NSET",     "ELSET",    "SURFACE",
-                                             "REF NODE", "TIE NSET", "PIN NSET"};
+    static const std::set<std::string> names{"NSET",     "ELSET",    "SURFACE", "REF NODE",
+                                             "ROT NODE", "TIE NSET", "PIN NSET"};
     for (auto& [parameter, value] : keyword.parameters) {
       const bool is_name =
           names.contains(parameter) || (keyword.name == "SURFACE" && parameter == "NAME");
@@ -224,10 +224,16 @@ class Flattening {
     if (keyword.name == "NODE") place_node(keyword, row, scope);
     if (keyword.name == "ELEMENT" || keyword.name == "NSET" || keyword.name == "ELSET")
       rename_list(keyword, row, scope);
+    if (keyword.name == "EQUATION" && row.fields.size() > 1)
+      for (std::size_t k = 0; k < row.fields.size(); k += 3)
+        row.fields[k] = renamed(keyword, row.fields[k], scope);
+    if (keyword.name == "TIE")
+      for (std::string& surface : row.fields) surface = renamed(keyword, surface, scope);
     if (keyword.name == "MPC")
       for (std::size_t k = 1; k < row.fields.size(); ++k)
         row.fields[k] = renamed(keyword, row.fields[k], scope);
-    if ((keyword.name == "SURFACE" || keyword.name == "BOUNDARY") && !row.fields.empty())
+    static const std::set<std::string> begin_with_a_name{"SURFACE", "BOUNDARY", "NODAL THICKNESS"};
+    if (begin_with_a_name.contains(keyword.name) && !row.fields.empty())
       row.fields[0] = renamed(keyword, row.fields[0], scope);
     if (keyword.name == "BEAM SECTION" && i == 1 && scope.placement.is_turned()) {
       Vector n1{};

@@ -42,7 +42,9 @@ void add_parameters(Keyword& keyword, std::span<const std::string> words)
     const std::string_view text(word);
     const std::string value =
         equals < word.size() ? unquoted(capitals(trimmed(text.substr(equals + 1)))) : "";
-    keyword.parameters[capitals(with_single_blanks(trimmed(text.substr(0, equals))))] = value;
+    const std::string name = capitals(with_single_blanks(trimmed(text.substr(0, equals))));
+    const bool is_node = name == "REFNODE" || name == "ROTNODE";  // as CalculiX reads them too
+    keyword.parameters[is_node ? name.substr(0, 3) + " NODE" : name] = value;
   }
 }
 
@@ -114,36 +116,28 @@ std::vector<Keyword> parsed(const DeckLines& lines)
   return keywords;
 }
 
-/// A support of the first step, as one of the model.
-Keyword without_step(Keyword keyword, bool has_supports_before)
+bool is_support_anew(const Keyword& keyword)
 {
-  if (keyword.name != "BOUNDARY") return keyword;
-  if (has_supports_before && keyword.has("OP") && keyword.parameter("OP") == "NEW") {
-    keyword.refuse(
-        "OP = NEW takes away the supports before the step; keep those that the analysis has");
-  }
-  keyword.parameters.erase("OP");
-  return keyword;
+  return keyword.name == "BOUNDARY" && keyword.has("OP") && keyword.parameter("OP") == "NEW";
 }
 
-/// Pre-processors write supports into the first step; they are the model's.
+/// Pre-processors write supports into the first step; they are the model's. OP = NEW takes away
+/// those before the step.
 std::vector<Keyword> with_first_step(std::vector<Keyword> keywords)
 {
   const auto step = std::ranges::find(keywords, "STEP", &Keyword::name);
   const auto end = std::find_if(step, keywords.end(),
                                 [](const Keyword& keyword) { return keyword.name == "END STEP"; });
-  const bool has_supports = std::any_of(
-      keywords.begin(), step, [](const Keyword& keyword) { return keyword.name == "BOUNDARY"; });
   std::vector<Keyword> model(keywords.begin(), step), of_step;
+  if (std::any_of(step, end, is_support_anew))
+    std::erase_if(model, [](const Keyword& keyword) { return keyword.name == "BOUNDARY"; });
   for (auto keyword = step; keyword != end; ++keyword) {
     if (keyword->name == "MODEL CHANGE")
       keyword->refuse("takes elements out or in; write the model as it is in the analysis");
     const bool is_of_model =
         keyword->name == "BOUNDARY" || keyword->name == "NSET" || keyword->name == "ELSET";
-    if (is_of_model)
-      model.push_back(without_step(*keyword, has_supports));
-    else
-      of_step.push_back(*keyword);
+    (is_of_model ? model : of_step).push_back(*keyword);
+    if (keyword->name == "BOUNDARY") model.back().parameters.erase("OP");
   }
   std::ranges::move(of_step, std::back_inserter(model));
   std::move(end, keywords.end(), std::back_inserter(model));
@@ -216,9 +210,38 @@ double Keyword::real_or(const KeywordRow& row, std::size_t i, std::string_view w
   return field(row, i).empty() ? otherwise : real(row, i, what);
 }
 
+namespace {
+
+/// The displacements of the node ROT NODE of a rigid body are the rotations of its REF NODE.
+std::vector<Keyword> with_rotations(std::vector<Keyword> keywords)
+{
+  std::map<std::string, std::string> reference_of;
+  for (const Keyword& keyword : keywords)
+    if (keyword.name == "RIGID BODY" && keyword.has("ROT NODE"))
+      reference_of[keyword.parameter("ROT NODE")] = keyword.parameter("REF NODE");
+  for (Keyword& keyword : keywords) {
+    if (keyword.name != "BOUNDARY") continue;
+    for (KeywordRow& row : keyword.rows) {
+      const auto reference = reference_of.find(row.fields.front());
+      if (reference == reference_of.end()) continue;
+      row.fields.front() = reference->second;
+      for (std::size_t i = 1; i < std::min<std::size_t>(row.fields.size(), 3); ++i) {
+        if (row.fields[i].empty()) continue;
+        const std::int64_t component = keyword.integer(row, i, "component");
+        if (component > 3) keyword.refuse(row, "a ROT NODE has the components 1 to 3");
+        row.fields[i] = fmt::format("{}", component + 3);
+      }
+    }
+  }
+  return keywords;
+}
+
+}  // namespace
+
 std::vector<Keyword> abaqus_keywords(const std::string& text, const ReadIncluded& read)
 {
-  return flat_keywords(with_first_step(parsed(DeckLines(text, file_of_include, read))));
+  return with_rotations(
+      flat_keywords(with_first_step(parsed(DeckLines(text, file_of_include, read)))));
 }
 
 }  // namespace chladni::mesh

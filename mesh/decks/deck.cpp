@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -475,6 +477,175 @@ Mesh with_flat_corners_split(Mesh mesh)
   return split;
 }
 
+void add_equations(Mesh& mesh, const Deck& deck, const NodeIndex& index)
+{
+  for (const DeckEquation& equation : deck.equations) {
+    mesh.equations.push_back({.place = equation.entry, .terms = {}});
+    for (const auto& [number, component, factor] : equation.terms) {
+      const auto node = index.find(number);
+      if (node == index.end())
+        throw Error(fmt::format("{}: there is no node {}", equation.entry, number));
+      mesh.equations.back().terms.push_back({node->second, component, factor});
+    }
+  }
+  if (!deck.equations.empty()) {
+    mesh.notes.push_back(
+        fmt::format("{} equations between nodes hold as the deck has them", deck.equations.size()));
+  }
+}
+
+/// Equations of the nodes of a tie with the faces of solids at which they stand.
+class Tying {
+ public:
+  Tying(Mesh& mesh, const DeckTie& tie) : mesh_(mesh), tie_(tie)
+  {
+    const std::set<int> members = nodes_of(tie.faces);
+    for (const FreeFace& face : free_faces(mesh))
+      if (std::ranges::all_of(face.nodes, [&](int node) { return members.contains(node); }))
+        faces_.push_back(face);
+    if (faces_.empty())
+      refuse(fmt::format("\"{}\" holds no face of solids to which nodes could be tied", tie.faces));
+    for (const ElementBlock& block : mesh.blocks)
+      if (!is_solid(block.shape)) rotating_.insert(block.nodes.begin(), block.nodes.end());
+  }
+
+  void add_equations()
+  {
+    std::set<int> of_faces;
+    for (const FreeFace& face : faces_) of_faces.insert(face.nodes.begin(), face.nodes.end());
+    int n_tied = 0, n_free = 0;
+    double widest = 0.0;
+    for (const int node : nodes_of(tie_.nodes)) {
+      if (of_faces.contains(node)) continue;
+      if (rotating_.contains(node)) {
+        refuse(fmt::format("node {} of a shell or beam would hang at the faces as at hinges",
+                           mesh_.node_numbers[std::size_t(node)]));
+      }
+      const Nearest at = nearest(node);
+      const bool is_tied = at.gap <= tie_.gap.value_or(of_size * size(*at.face));
+      ++(is_tied ? n_tied : n_free);
+      if (!is_tied) continue;
+      widest = std::max(widest, at.gap);
+      if (!tie_.moves && at.gap > touching * size(*at.face)) {
+        refuse(
+            fmt::format("ADJUST = NO leaves node {} apart from the face that it follows; let it "
+                        "be moved there, or mesh it there",
+                        mesh_.node_numbers[std::size_t(node)]));
+      }
+      follow(node, at);
+    }
+    if (n_tied == 0) refuse("none of its nodes is near its faces");
+    mesh_.notes.push_back(fmt::format(
+        "{}: {} nodes move as the faces do at which they stand{}{}", tie_.entry, n_tied,
+        widest > 0.0
+            ? fmt::format(", onto which they were moved by up to {:.2g} of the deck's lengths",
+                          widest)
+            : "",
+        n_free > 0 ? fmt::format("; {} are too far away and stay free", n_free) : ""));
+  }
+
+ private:
+  static constexpr double of_size = 0.05, touching = 1e-4;  // of the size of a face
+
+  struct Nearest {
+    const FreeFace* face;
+    std::vector<double> N;
+    Vector x;
+    double gap;
+  };
+
+  [[noreturn]] void refuse(const std::string& why) const
+  {
+    throw Error(fmt::format("{}: {}", tie_.entry, why));
+  }
+
+  std::set<int> nodes_of(const std::string& group) const
+  {
+    const std::vector<int>& nodes = find_group(mesh_, group).nodes;
+    return {nodes.begin(), nodes.end()};
+  }
+
+  const Vector& position(int node) const { return mesh_.positions[std::size_t(node)]; }
+  int order(const FreeFace& face) const { return mesh_.blocks[face.block].order; }
+  double size(const FreeFace& face) const
+  {
+    return norm(minus(position(face.nodes[1]), position(face.nodes[0])));
+  }
+
+  Nearest at(const FreeFace& face, double r, double s, const Vector& x) const
+  {
+    Nearest here{&face, face_functions(face.nodes.size(), order(face), r, s), {}, 0.0};
+    for (std::size_t i = 0; i < here.N.size(); ++i)
+      for (std::size_t c = 0; c < 3; ++c) here.x[c] += here.N[i] * position(face.nodes[i])[c];
+    here.gap = norm(minus(x, here.x));
+    return here;
+  }
+
+  /// By Gauss and Newton in the parent coordinates, which stay in the face.
+  Nearest nearest(const FreeFace& face, const Vector& x) const
+  {
+    constexpr int most_steps = 30;
+    constexpr double step = 1e-4, converged = 1e-12;
+    const bool is_triangle = std::ssize(face.nodes) == 3 * order(face);
+    double r = is_triangle ? 1.0 / 3.0 : 0.0, s = r;
+    for (int i = 0; i < most_steps; ++i) {
+      const auto slope = [&](double dr, double ds) {
+        Vector by = minus(at(face, r + dr, s + ds, x).x, at(face, r - dr, s - ds, x).x);
+        for (double& c : by) c /= 2.0 * step;
+        return by;
+      };
+      const Vector a = slope(step, 0.0), b = slope(0.0, step), d = minus(x, at(face, r, s, x).x);
+      const double det = dot(a, a) * dot(b, b) - dot(a, b) * dot(a, b);
+      if (!(det > 0.0)) break;
+      const double r_0 = r, s_0 = s;
+      r += (dot(a, d) * dot(b, b) - dot(b, d) * dot(a, b)) / det;
+      s += (dot(b, d) * dot(a, a) - dot(a, d) * dot(a, b)) / det;
+      if (is_triangle) {
+        r = std::clamp(r, 0.0, 1.0);
+        s = std::clamp(s, 0.0, 1.0 - r);
+      } else {
+        r = std::clamp(r, -1.0, 1.0);
+        s = std::clamp(s, -1.0, 1.0);
+      }
+      if (std::abs(r - r_0) + std::abs(s - s_0) < converged) break;
+    }
+    return at(face, r, s, x);
+  }
+
+  Nearest nearest(int node) const
+  {
+    Nearest best{nullptr, {}, {}, std::numeric_limits<double>::infinity()};
+    for (const FreeFace& face : faces_) {
+      double reach = 0.0, distance = std::numeric_limits<double>::infinity();
+      for (const int corner : face.nodes) {
+        reach = std::max(reach, norm(minus(position(corner), position(face.nodes[0]))));
+        distance = std::min(distance, norm(minus(position(corner), position(node))));
+      }
+      if (distance > 2.0 * reach + tie_.gap.value_or(0.0) && best.face != nullptr) continue;
+      Nearest found = nearest(face, position(node));
+      if (found.gap < best.gap) best = std::move(found);
+    }
+    return best;
+  }
+
+  void follow(int node, const Nearest& at)
+  {
+    constexpr double none = 1e-11;  // of a node across the edge at which the point lies
+    if (at.gap > 0.0) mesh_.positions[std::size_t(node)] = at.x;
+    for (int c = 0; c < 3; ++c) {
+      Equation equation{.place = tie_.entry, .terms = {{node, c, -1.0}}};
+      for (std::size_t i = 0; i < at.N.size(); ++i)
+        if (std::abs(at.N[i]) > none) equation.terms.push_back({at.face->nodes[i], c, at.N[i]});
+      mesh_.equations.push_back(std::move(equation));
+    }
+  }
+
+  Mesh& mesh_;
+  const DeckTie& tie_;
+  std::vector<FreeFace> faces_;
+  std::set<int> rotating_;
+};
+
 }  // namespace
 
 int group_index(Deck& deck, const std::string& name, int dimension)
@@ -519,6 +690,169 @@ double orientation(const DeckElement& element,
   return dot(cross(tangents[0], tangents[1]), tangents[2]);
 }
 
+bool are_whole(const std::vector<int>& components)
+{
+  const auto n = std::ranges::count_if(components, [](int c) { return c < 3; });
+  return n % 3 == 0 && (std::ssize(components) - n) % 3 == 0;
+}
+
+void add_term(const Deck& deck, DeckEquation& equation, const DeckEquation::Term& term)
+{
+  const auto axes = deck.axes.find(term.node);
+  if (axes == deck.axes.end()) return equation.terms.push_back(term);
+  const Vector& axis = axes->second[std::size_t(term.component % 3)];
+  for (int c = 0; c < 3; ++c)
+    if (const double part = axis[std::size_t(c)]; part != 0.0)
+      equation.terms.push_back({term.node, term.component / 3 * 3 + c, term.factor * part});
+}
+
+NodesOfDeck::NodesOfDeck(const Deck& deck)
+{
+  for (const DeckElement& element : deck.elements) {
+    if (element.marks) continue;
+    connected.insert(element.nodes.begin(), element.nodes.end());
+    if (!is_solid(element.shape)) rotating.insert(element.nodes.begin(), element.nodes.end());
+  }
+}
+
+void hold_in_axes(Deck& deck, const NodesOfDeck& known, const DeckSupport& support)
+{
+  if (are_whole(support.components)) return;
+  for (const std::int64_t node : support.nodes) {
+    if (!deck.axes.contains(node) || !known.connected.contains(node)) continue;
+    for (const int c : support.components) {
+      if (c >= 3 && !known.rotating.contains(node)) continue;
+      DeckEquation equation{.entry = support.entry, .terms = {}};
+      add_term(deck, equation, {node, c, 1.0});
+      deck.equations.push_back(std::move(equation));
+    }
+  }
+}
+
+std::vector<std::int64_t> held_in_basic_axes(const Deck& deck,
+                                             const std::vector<std::int64_t>& nodes,
+                                             const std::vector<int>& components)
+{
+  std::vector<std::int64_t> others = nodes;
+  if (!are_whole(components))
+    std::erase_if(others, [&](std::int64_t node) { return deck.axes.contains(node); });
+  return others;
+}
+
+namespace {
+
+Vector position_of(const Deck& deck, const std::string& entry, std::int64_t node)
+{
+  const auto found = deck.nodes.find(node);
+  if (found == deck.nodes.end()) throw Error(fmt::format("{}: there is no node {}", entry, node));
+  return found->second;
+}
+
+/// The axis of a component of a node.
+Vector axis_of(const Deck& deck, std::int64_t node, int component)
+{
+  const auto axes = deck.axes.find(node);
+  if (axes != deck.axes.end()) return axes->second[std::size_t(component % 3)];
+  Vector axis{};
+  axis[std::size_t(component % 3)] = 1.0;
+  return axis;
+}
+
+/// Adds factor a . u (first = 0) or factor a . theta (first = 3) of a node.
+void add_along(DeckEquation& equation, std::int64_t node, int first, const Vector& a, double factor)
+{
+  for (int c = 0; c < 3; ++c)
+    if (const double part = factor * a[std::size_t(c)]; part != 0.0)
+      equation.terms.push_back({node, first + c, part});
+}
+
+/// The inverse of a symmetric matrix, by cofactors.
+DeckAxes inverse(const DeckAxes& A, const std::string& entry)
+{
+  DeckAxes B{cross(A[1], A[2]), cross(A[2], A[0]), cross(A[0], A[1])};
+  const double det = dot(A[0], B[0]), trace = A[0][0] + A[1][1] + A[2][2];
+  if (!(det > 1e-9 * trace * trace * trace))
+    throw Error(fmt::format("{}: its nodes lie on one line or are too few", entry));
+  for (Vector& row : B)
+    for (double& b : row) b /= det;
+  return B;
+}
+
+}  // namespace
+
+void add_rigid_equations(Deck& deck, const std::string& entry, std::int64_t reference,
+                         std::int64_t node, const std::vector<int>& components)
+{
+  const Vector arm = minus(position_of(deck, entry, node), position_of(deck, entry, reference));
+  for (const int component : components) {
+    const Vector a = axis_of(deck, node, component);
+    DeckEquation equation{.entry = entry, .terms = {}};
+    const int first = component / 3 * 3;
+    add_along(equation, node, first, a, -1.0);
+    add_along(equation, reference, first, a, 1.0);
+    if (first == 0) add_along(equation, reference, 3, cross(arm, a), 1.0);  // (theta x arm) . a
+    deck.equations.push_back(std::move(equation));
+  }
+}
+
+void add_elongation(Deck& deck, const NodesOfDeck& known, const DeckElongation& elongation)
+{
+  const auto& [entry, group, nodes] = elongation;
+  const Vector a = position_of(deck, entry, nodes[0]), b = position_of(deck, entry, nodes[1]);
+  const Vector along = minus(b, a);
+  if (!(norm(along) > 0.0)) throw Error(fmt::format("{}: its nodes are at one place", entry));
+  const std::int64_t added = deck.nodes.rbegin()->first + 1;
+  Vector middle{};
+  for (std::size_t c = 0; c < 3; ++c) middle[c] = 0.5 * (a[c] + b[c]);
+  deck.nodes[added] = middle;
+  deck.groups[std::size_t(group_index(deck, group, 0))].nodes = {added};
+  const bool turn = known.rotating.contains(nodes[0]) && known.rotating.contains(nodes[1]);
+  for (const int first : turn ? std::vector{0, 3} : std::vector{0}) {
+    DeckEquation equation{.entry = entry, .terms = {{added, first, -1.0}}};
+    add_along(equation, nodes[1], first, unit(along), 1.0);
+    add_along(equation, nodes[0], first, unit(along), -1.0);
+    deck.equations.push_back(std::move(equation));
+  }
+}
+
+void add_mean_equations(Deck& deck, const std::string& entry, std::int64_t reference,
+                        const std::vector<int>& components,
+                        const std::map<std::int64_t, double>& weights)
+{
+  double sum = 0.0;
+  Vector centre{};
+  for (const auto& [node, weight] : weights) {
+    const Vector x = position_of(deck, entry, node);
+    sum += weight;
+    for (std::size_t c = 0; c < 3; ++c) centre[c] += weight * x[c];
+  }
+  for (double& c : centre) c /= sum;
+  DeckAxes J{};  // sum w (r^2 I - r r^T)
+  for (const auto& [node, weight] : weights) {
+    const Vector r = minus(position_of(deck, entry, node), centre);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        J[i][k] += weight / sum * ((i == k ? dot(r, r) : 0.0) - r[i] * r[k]);
+  }
+  const DeckAxes J_inverse = inverse(J, entry);
+  const Vector arm = minus(position_of(deck, entry, reference), centre);
+  for (const int component : components) {
+    const Vector a = axis_of(deck, reference, component);
+    DeckEquation equation{.entry = entry, .terms = {}};
+    add_along(equation, reference, component / 3 * 3, a, -1.0);
+    // a . theta_ref, or a . (theta_ref x arm) = theta_ref . (arm x a), theta_ref = J^-1 sum w r x u
+    const Vector b = component < 3 ? cross(arm, a) : a;
+    Vector turn{};
+    for (std::size_t i = 0; i < 3; ++i) turn[i] = dot(J_inverse[i], b);
+    for (const auto& [node, weight] : weights) {
+      Vector of_node = cross(turn, minus(position_of(deck, entry, node), centre));
+      for (std::size_t c = 0; c < 3 && component < 3; ++c) of_node[c] += a[c];
+      add_along(equation, node, 0, of_node, weight / sum);
+    }
+    deck.equations.push_back(std::move(equation));
+  }
+}
+
 bool have_rotations(const Deck& deck, const std::vector<std::int64_t>& nodes)
 {
   const std::set<std::int64_t> all(nodes.begin(), nodes.end());
@@ -559,6 +893,10 @@ Mesh mesh_of(Deck deck, const MeshOptions& options)
   }
   add_elements(mesh, deck, index, content, options);
   add_groups_of_nodes(mesh, deck, index);
+  if (!options.matrices) {  // which have them already
+    add_equations(mesh, deck, index);
+    for (const DeckTie& tie : deck.ties) Tying(mesh, tie).add_equations();
+  }
   if (mesh.blocks.empty() && !options.matrices) {
     throw Error(
         "it has neither solids nor shells, nor beams of the group of a beam section; see "
@@ -654,9 +992,23 @@ Holders::Holders(const Deck& deck)
 {
   for (const DeckElement& element : deck.elements)
     connected_.insert(element.nodes.begin(), element.nodes.end());
+  for (const DeckEquation& equation : deck.equations)
+    for (const DeckEquation::Term& term : equation.terms) connected_.insert(term.node);
   for (const DeckCoupling& coupling : deck.couplings)
     if (!coupling.averages)
       followers_.insert(nodes_of(deck, coupling).begin(), nodes_of(deck, coupling).end());
+}
+
+std::vector<std::int64_t> Holders::held_in_basic_axes(const Deck& deck,
+                                                      const std::vector<std::int64_t>& nodes,
+                                                      const std::vector<int>& components) const
+{
+  for (const std::int64_t node : nodes) {
+    if (!deck.axes.contains(node) || !is_reference(node) || are_whole(components)) continue;
+    throw Error(fmt::format(
+        "node {} is the reference node of a coupling, and is held in the basic axes alone", node));
+  }
+  return mesh::held_in_basic_axes(deck, nodes, components);
 }
 
 bool Declarations::has_section(const std::string& group) const

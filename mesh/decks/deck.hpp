@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -51,17 +52,96 @@ struct DeckCoupling {
   bool averages;
 };
 
+/// A linear equation between motions of nodes, in the units of the deck.
+struct DeckEquation {
+  struct Term {
+    std::int64_t node;
+    int component;  ///< 0 to 5
+    double factor;
+  };
+  std::string entry;  ///< "line 7: *EQUATION"
+  std::vector<Term> terms;
+};
+
+/// Nodes that move as the faces of solids do at which they stand.
+struct DeckTie {
+  std::string entry;          ///< "line 7: *TIE"
+  std::string nodes, faces;   ///< groups
+  std::optional<double> gap;  ///< up to which nodes are tied; absent: a part of the size of faces
+  bool moves;                 ///< nodes onto the faces
+};
+
+/// The axes in which the components of a node count, as rows.
+using DeckAxes = std::array<std::array<double, 3>, 3>;
+
 /// The mesh of a file of another FE program, with the numbers and in the length unit of the file.
 struct Deck {
   std::map<std::int64_t, std::array<double, 3>> nodes;
   std::vector<DeckElement> elements;
   std::vector<DeckGroup> groups;
   std::vector<DeckCoupling> couplings;
-  std::vector<std::string> notes;
+  std::vector<DeckEquation> equations = {};
+  std::vector<DeckTie> ties = {};
+  std::map<std::int64_t, DeckAxes> axes = {};  ///< of nodes with axes of their own
+  std::vector<std::string> notes = {};
 };
 
 /// The index of the group of this name, which is added if missing.
 int group_index(Deck& deck, const std::string& name, int dimension);
+
+/// Whether components (0 to 5) name all or none of the displacements, and of the rotations: then
+/// the axes of a node do not matter.
+bool are_whole(const std::vector<int>& components);
+
+/// Adds a factor times a component (0 to 5) of a node, in its own axes where it has some.
+void add_term(const Deck& deck, DeckEquation& equation, const DeckEquation::Term& term);
+
+/// The nodes of elements, and those of shells and beams, which have rotations.
+struct NodesOfDeck {
+  std::set<std::int64_t> connected, rotating;
+
+  explicit NodesOfDeck(const Deck& deck);
+};
+
+/// Held components (0 to 5) of nodes.
+struct DeckSupport {
+  std::string entry;  ///< "line 7: SPC1 4"
+  std::vector<std::int64_t> nodes;
+  std::vector<int> components;
+};
+
+/// Supports as equations of single nodes, of those nodes that have axes of their own and belong to
+/// an element; rotations of nodes of shells and beams alone.
+void hold_in_axes(Deck& deck, const NodesOfDeck& known, const DeckSupport& support);
+
+/// The nodes without axes of their own; all where the components are whole.
+std::vector<std::int64_t> held_in_basic_axes(const Deck& deck,
+                                             const std::vector<std::int64_t>& nodes,
+                                             const std::vector<int>& components);
+
+/// Equations of components (0 to 5) of a node that follows another one as a rigid body.
+/// @throws chladni::Error when one of the nodes is not there
+void add_rigid_equations(Deck& deck, const std::string& entry, std::int64_t reference,
+                         std::int64_t node, const std::vector<int>& components);
+
+/// A spring between two nodes, of any direction.
+struct DeckElongation {
+  std::string entry, group;
+  std::array<std::int64_t, 2> nodes;
+};
+
+/// Adds a node in a group of this name whose x is how far two nodes move apart along the line
+/// between them, and whose rx is how far they turn against each other about it where both turn: a
+/// spring between it and the ground is a spring between the two.
+/// @throws chladni::Error when they are not there, or at one place
+void add_elongation(Deck& deck, const NodesOfDeck& known, const DeckElongation& elongation);
+
+/// Equations of components of a node that moves as others do in the mean: by the rigid motion that
+/// fits their displacements best, with a weight for each.
+/// @throws chladni::Error when nodes are not there, or lie on one line
+void add_mean_equations(Deck& deck, const std::string& entry, std::int64_t reference,
+                        const std::vector<int>& components,
+                        const std::map<std::int64_t, double>& weights);
 
 /// Gives elements of order 2 the middle nodes that they lack (0 in their places): that of a
 /// neighbour at the same edge, or else a new one in the middle of the straight edge, in the sets
@@ -79,6 +159,7 @@ bool have_rotations(const Deck& deck, const std::vector<std::int64_t>& nodes);
 /// become sets of nodes, and a note says so. If there are tetrahedra or wedges of order 1, all
 /// solids get nodes in the middle of their edges. Nodes without an element are left out, but for
 /// those of `coupled_groups`; quadrilaterals with a flat corner are split (`split_flat_corners`).
+/// Ties become equations.
 /// @throws chladni::Error naming an element and its missing node, a solid that is inside out or has
 ///         a node twice, two elements with the same nodes unless `doubled_elements` says what
 ///         becomes of them, and for a deck without elements.
@@ -91,12 +172,18 @@ class Holders {
   explicit Holders(const Deck& deck);
 
   bool is_follower(std::int64_t node) const { return followers_.contains(node); }
-  /// True if an element has the node, or it follows another one: then it is a node of the mesh.
+  /// True if an element or an equation has the node, or it follows another one: then it is a node
+  /// of the mesh.
   bool is_in_mesh(std::int64_t node) const
   {
     return connected_.contains(node) || is_follower(node);
   }
   bool is_reference(std::int64_t node) const { return references_.contains(node); }
+  /// As the function of this name.
+  /// @throws chladni::Error for a reference node with axes of its own, which no equation holds
+  std::vector<std::int64_t> held_in_basic_axes(const Deck& deck,
+                                               const std::vector<std::int64_t>& nodes,
+                                               const std::vector<int>& components) const;
   void add_reference(std::int64_t node) { references_.insert(node); }
 
   /// The groups and couplings by which a scene holds some nodes of `group`.

@@ -19,8 +19,14 @@ struct DeclaredMaterial {
 
 /// The shell section of a group.
 struct DeclaredShell {
+  /// Values between which a length is linear over a coordinate, as in a scene.
+  struct Table {
+    std::string over;
+    std::vector<double> at, values;  ///< m
+  };
   std::string group, material;
-  double thickness;  ///< m
+  double thickness;                 ///< m
+  std::optional<Table> table = {};  ///< takes the place of the thickness
   /// m, from the nodes to the mid-surface, along the normals of the elements
   double offset;
 };

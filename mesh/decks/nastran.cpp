@@ -41,17 +41,13 @@ constexpr std::pair<const char*, const char*> refused_by_name[] = {
     {"MAT8", not_isotropic},
     {"MAT9", not_isotropic},
     {"MAT10", "is a fluid, and a scene's bodies are solid; take the fluid out"},
-    {"CBUSH", "is a spring of six components; write it into the scene as [[spring]]"},
-    {"CROD", "is a rod without bending; a CBAR with small I1 and I2 stands for it"},
-    {"CONROD", "is a rod without bending; a CBAR with small I1 and I2 stands for it"},
     {"CELAS3", "joins scalar points, and a scene has none; take CELAS1 or CELAS2 between grids"},
     {"CELAS4", "joins scalar points, and a scene has none; take CELAS1 or CELAS2 between grids"},
     {"DMIG",
      "is a matrix beside the elements; `chladni import` reads a superelement of DMIG alone "
      "from a .pch or .dmig"},
     {"RBE1", "is no plain rigid body; take RBE2"},
-    {"CGAP", "is a contact, and a scene is linear; take it out or join the nodes"},
-    {"SPCD", "prescribes a displacement; a scene's support holds at zero only"}};
+    {"CGAP", "is a contact, and a scene is linear; take it out or join the nodes"}};
 
 /// Of what becomes of the deck, by card.
 class NastranReader {
@@ -73,7 +69,9 @@ class NastranReader {
       else
         refuse_unknown(card);
     }
+    part_beams();
     couple();
+    hold_in_axes();
     add_missing_middles(deck_);
     for (const auto& [name, n] : left_out_)
       deck_.notes.push_back(fmt::format("{} {} are left out: they are no part of a mesh", n, name));
@@ -93,19 +91,25 @@ class NastranReader {
 
   static Readers make_readers()
   {
-    Readers all{{"SET1", &NastranReader::set1},    {"SPC", &NastranReader::held},
-                {"SPC1", &NastranReader::held},    {"PARAM", &NastranReader::parameter},
-                {"CONM2", &NastranReader::mass},   {"CELAS1", &NastranReader::spring},
-                {"CELAS2", &NastranReader::spring}};
+    Readers all{{"SET1", &NastranReader::set1},     {"SPC", &NastranReader::held},
+                {"SPC1", &NastranReader::held},     {"PARAM", &NastranReader::parameter},
+                {"CONM2", &NastranReader::mass},    {"CELAS1", &NastranReader::spring},
+                {"CELAS2", &NastranReader::spring}, {"CBUSH", &NastranReader::spring}};
     for (const char* name : {"RBE2", "RBE3", "RBAR"}) all.emplace(name, &NastranReader::rigid);
     for (const char* name : {"CTETRA", "CPENTA", "CHEXA"}) all.emplace(name, &NastranReader::solid);
     for (const char* name : {"CQUAD4", "CTRIA3"}) all.emplace(name, &NastranReader::flat_shell);
     for (const char* name : {"CQUAD8", "CTRIA6"}) all.emplace(name, &NastranReader::curved_shell);
+    for (const char* name : {"CROD", "CONROD"}) {
+      all.emplace(name,
+                  [](NastranReader& reader, const Card& card) { reader.element_number(card); });
+    }
     for (const char* name : {"CBAR", "CBEAM"}) all.emplace(name, &NastranReader::beam);
+    for (const char* name : {"PBAR", "PBARL", "PBEAM"})
+      all.emplace(name, &NastranReader::property_of_beams);
     for (const char* name : {"ASET", "ASET1"}) all.emplace(name, &NastranReader::analysis_set);
     for (const char* name :
-         {"CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "MAT1", "PSHELL", "PBAR",
-          "PBARL", "PBEAM", "PSOLID", "PELAS", "CASE", "GRDSET", "SPCADD", "MPC", "MPCADD"})
+         {"CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "MAT1", "PSHELL", "PSOLID",
+          "PELAS", "PBUSH", "PROD", "CASE", "GRDSET", "SPCADD", "MPC", "MPCADD"})
       all.emplace(name, [](NastranReader&, const Card&) {});
     for (const char* name :
          {"EIGR",    "EIGRL",   "EIGB",    "EIGC",  "EIGP",   "FORCE",   "MOMENT",  "PLOAD",
@@ -113,7 +117,7 @@ class NastranReader {
           "RLOAD2",  "TLOAD1",  "TLOAD2",  "DAREA", "DELAY",  "DPHASE",  "TABLED1", "TABLED2",
           "TABLED3", "TABLED4", "TABDMP1", "FREQ",  "FREQ1",  "FREQ2",   "FREQ3",   "FREQ4",
           "TSTEP",   "NLPARM",  "TEMP",    "TEMPD", "SUPORT", "SUPORT1", "PLOTEL",  "SPOINT",
-          "QSET",    "QSET1",   "OMIT",    "OMIT1"})
+          "QSET",    "QSET1",   "OMIT",    "OMIT1", "SPCD"})
       all.emplace(name,
                   [](NastranReader& reader, const Card& card) { ++reader.left_out_[card.name()]; });
     return all;
@@ -137,8 +141,30 @@ class NastranReader {
       card.refuse(fmt::format("there is no coordinate system {}", system));
     const auto x = basic_position(found->second, card.vector_or_zero(3, "a coordinate"));
     if (!deck_.nodes.emplace(number, x).second) card.refuse("is there twice");
+    const auto own = systems_.find(card.integer_or(6, "CD", 0));
+    if (own == systems_.end())
+      card.refuse(fmt::format("there is no coordinate system {}", card.field(6)));
+    if (own->first != 0) deck_.axes[number] = axes_at(own->second, x);
     const std::vector<int> held = held_by_grid(card);
-    if (!held.empty()) add_to(name_of_held_by_grid(held), {number});
+    if (!held.empty())
+      add_to(name_of_held_by_grid(held), held_in_basic_axes(deck_, {number}, held));
+  }
+
+  /// Supports in the systems CD of nodes are equations.
+  void hold_in_axes()
+  {
+    if (deck_.axes.empty()) return;
+    const NodesOfDeck known(deck_);
+    const std::set<std::int64_t> chosen = chosen_sets(cards_, "SPC").sets;
+    for (const Card& card : cards_) {
+      const std::string entry = fmt::format("{}: {} {}", card.place(), card.name(), card.field(1));
+      if (card.name() == "GRID")
+        mesh::hold_in_axes(deck_, known, {entry, {card.integer(1, "ID")}, held_by_grid(card)});
+      if (card.name() != "SPC" && card.name() != "SPC1") continue;
+      for (const HeldNodes& held : held_nodes(card, deck_))
+        if (chosen.contains(held.set))
+          mesh::hold_in_axes(deck_, known, {entry, held.nodes, held.components});
+    }
   }
 
   static std::int64_t node(const Card& card, std::size_t i)
@@ -157,6 +183,7 @@ class NastranReader {
 
   void add_to(const std::string& group, const std::vector<std::int64_t>& numbers)
   {
+    if (numbers.empty()) return;
     std::vector<std::int64_t>& all =
         deck_.groups[static_cast<std::size_t>(group_index(deck_, group, 0))].nodes;
     all.insert(all.end(), numbers.begin(), numbers.end());
@@ -250,15 +277,58 @@ class NastranReader {
     for (std::size_t i = 11; i <= 16; ++i)
       if (card.real_or(i, "an offset", 0.0) != 0.0) card.refuse(no_offset);
     card.expect_no_more_than(16);
-    const char* kind = card.name() == "CBAR" ? "pbar" : "pbeam";
-    add_element(card, nodes(card, 2), kind);
+    add_element(card, nodes(card, 2), card.name() == "CBAR" ? "pbar" : "pbeam");
+    beams_.emplace_back(&card, deck_.elements.size() - 1);
+  }
+
+  /// Beams of a property whose vectors differ get groups of their own, "pbar_5_2" and so on, unless
+  /// the section is the same about all axes.
+  void part_beams()
+  {
+    constexpr double written = 1e-4;
+    std::map<int, std::vector<std::pair<Vector, int>>> parts;  // by group: vectors and groups
+    for (const auto& [card, element] : beams_) {
+      int& group = deck_.elements[element].group;
+      const std::string name = deck_.groups[std::size_t(group)].name;
+      if (round_properties_.contains(name)) continue;
+      const Vector own = vector_of_beam(*card, deck_);
+      auto& of_group = parts[group];
+      const auto part = std::ranges::find_if(
+          of_group, [&](const auto& of) { return norm(minus(of.first, own)) <= written; });
+      if (part == of_group.end()) {
+        const int first = group;
+        if (!of_group.empty())
+          group = group_index(deck_, fmt::format("{}_{}", name, of_group.size() + 1), 1);
+        parts[first].emplace_back(own, group);
+      } else {
+        group = part->second;
+      }
+    }
+  }
+
+  /// Properties whose second moments and shear factors are one about all axes.
+  void property_of_beams(const Card& card)
+  {
+    const bool is_listed = card.name() == "PBARL";
+    const bool is_round = is_listed ? card.field(4) != "BAR"
+                                    : card.real_or(4, "I1", 0.0) == card.real_or(5, "I2", 0.0) &&
+                                          card.field(17) == card.field(18);
+    if (is_round) {
+      round_properties_.insert(
+          fmt::format("{}_{}", card.name() == "PBEAM" ? "pbeam" : "pbar", card.integer(1, "PID")));
+    }
   }
 
   void rigid(const Card& card) { element_number(card); }
 
   void couple()
   {
+    const NodesOfDeck known(deck_);
     for (const RigidElement& element : rigid_elements(cards_, deck_)) {
+      if (element.is_of_equations()) {
+        add_equations(element, known);
+        continue;
+      }
       add_to(element.group, element.nodes);
       deck_.couplings.push_back({.entry = fmt::format("{}: {} {}", element.card->place(),
                                                       element.card->name(), element.card->field(1)),
@@ -266,7 +336,31 @@ class NastranReader {
                                  .group = element.group,
                                  .averages = element.averages()});
     }
+    for (const DeckEquation& equation : equations_of_cards(cards_, deck_))
+      deck_.equations.push_back(equation);
+    for (const Card& card : cards_) {
+      if (!is_rod(card)) continue;
+      const auto ends = nodes_of_rod(card);
+      mesh::add_elongation(deck_, known,
+                           {fmt::format("{}: {} {}", card.place(), card.name(), card.field(1)),
+                            name_of_rod(card, 0), ends});
+      for (const int end : {1, 2}) add_to(name_of_rod(card, end), {ends[std::size_t(end) - 1]});
+    }
     add_leaders(deck_);
+  }
+
+  void add_equations(const RigidElement& element, const NodesOfDeck& known)
+  {
+    const std::string entry = fmt::format("{}: {} {}", element.card->place(), element.card->name(),
+                                          element.card->field(1));
+    if (element.averages()) {
+      return add_mean_equations(deck_, entry, element.reference, element.components,
+                                element.weights);
+    }
+    for (const std::int64_t node : element.nodes)
+      for (const int c : element.components)
+        if (c < 3 || known.rotating.contains(node))
+          add_rigid_equations(deck_, entry, element.reference, node, {c});
   }
 
   void mass(const Card& card)
@@ -285,8 +379,10 @@ class NastranReader {
 
   void held(const Card& card)
   {
-    for (const HeldNodes& of_card : held_nodes(card, deck_))
-      add_to(name_of_held(of_card.set, of_card.components), of_card.nodes);
+    for (const HeldNodes& of_card : held_nodes(card, deck_)) {
+      add_to(name_of_held(of_card.set, of_card.components),
+             held_in_basic_axes(deck_, of_card.nodes, of_card.components));
+    }
   }
 
   void set1(const Card& card)
@@ -311,6 +407,8 @@ class NastranReader {
   std::span<const Card> cards_;
   DeckSystems systems_;
   Deck deck_;
+  std::vector<std::pair<const Card*, std::size_t>> beams_;  ///< and their places in the deck
+  std::set<std::string> round_properties_;
   std::set<std::pair<std::string, std::int64_t>> element_numbers_;
   std::map<std::string, int> left_out_;
 };
@@ -449,6 +547,21 @@ std::array<double, 3> basic_position(const DeckSystem& system, const std::array<
   return position;
 }
 
+DeckAxes axes_at(const DeckSystem& system, const std::array<double, 3>& x)
+{
+  if (system.kind == rectangular) return system.axes;
+  const Vector& z = system.axes[2];
+  const Vector arm = minus(x, system.origin);
+  Vector radial = arm;
+  for (std::size_t c = 0; c < 3; ++c) radial[c] -= dot(arm, z) * z[c];
+  if (norm(radial) <= 1e-9 * norm(arm) || norm(arm) == 0.0) return system.axes;  // on the axis
+  radial = unit(radial);
+  const Vector around = cross(z, radial);
+  if (system.kind == cylindrical) return {radial, around, z};
+  const Vector out = unit(arm);
+  return {out, cross(around, out), around};
+}
+
 namespace {
 
 std::string digits(const std::vector<int>& components)
@@ -483,36 +596,38 @@ RigidElement rbe2(const Card& card, const Deck& deck)
   const std::vector<int> held = card.components(3);
   const bool is_of_solids =
       held == std::vector<int>{0, 1, 2} && !have_rotations(deck, element.nodes);
-  if (held.size() != 6 && !is_of_solids) {
-    card.refuse(
-        "holds not all components 123456, as a scene's rigid coupling does; 123 suffice for nodes "
-        "of "
-        "solids alone");
-  }
+  if (held.size() != 6 && !is_of_solids) element.components = held;
   return element;
 }
 
-/// One weight and its components, then nodes; UM and ALPHA behind have no counterpart.
+/// Weights and their components, each with nodes; UM and ALPHA behind have no counterpart.
 RigidElement rbe3(const Card& card)
 {
   card.expect_blank(2, 2, "this field of RBE3 is blank");
   const std::vector<int> moved = card.components(4);
-  if (moved.size() != 6 && moved != std::vector<int>{0, 1, 2})
-    card.refuse("averages neither the components 123456 nor 123 of its reference node");
-  if (card.components(6) != std::vector<int>{0, 1, 2})
-    card.refuse("averages other components than 123 of its nodes; a scene's coupling these alone");
   RigidElement element{.group = name_of_rigid("rbe3", card),
                        .reference = card.integer(3, "REFGRID"),
                        .nodes = {},
                        .card = &card};
-  card.real(5, "a weight");
-  for (std::size_t i = 7; i <= card.n_fields(); ++i) {
+  double weight = 0.0;
+  for (std::size_t i = 5; i <= card.n_fields(); ++i) {
     if (!card.has(i)) continue;
-    if (card.field(i).find('.') != std::string_view::npos)
-      card.refuse("has several weights; a scene weighs nodes by the area that each stands for");
-    element.nodes.push_back(card.integer(i, "number of a node"));
+    if (card.field(i).find('.') == std::string_view::npos) {
+      element.nodes.push_back(card.integer(i, "number of a node"));
+      element.weights[element.nodes.back()] += weight;
+      continue;
+    }
+    weight = card.real(i, "a weight");
+    if (card.components(++i) != std::vector<int>{0, 1, 2}) {
+      card.refuse(
+          "averages other components than 123 of its nodes; a scene's coupling these alone");
+    }
   }
   if (element.nodes.empty()) card.refuse("has no nodes to average");
+  const bool is_plain =
+      std::ranges::all_of(element.weights, [&](const auto& of) { return of.second == weight; });
+  const bool is_whole = moved.size() == 6 || moved == std::vector<int>{0, 1, 2};
+  if (!is_plain || !is_whole) element.components = moved;
   return element;
 }
 
@@ -536,27 +651,44 @@ RigidElement rbar(const Card& card)
           .card = &card};
 }
 
+/// A term of an MPC: node, component and factor; two stand in each line.
+struct MpcTerm {
+  std::int64_t node;
+  int component;
+  double factor;
+};
+
+std::vector<MpcTerm> terms_of(const Card& card)
+{
+  std::vector<MpcTerm> terms;
+  for (std::size_t i = 2; i <= card.n_fields(); i += (i % 8 == 2 ? 3 : 5)) {
+    if (!card.has(i)) continue;
+    const auto c = card.components(i + 1);
+    if (c.size() != 1) card.refuse("needs one component of 1 to 6 for each node");
+    terms.push_back({card.integer(i, "number of a node"), c.front(), card.real(i + 2, "a factor")});
+  }
+  if (terms.empty()) card.refuse("has no terms");
+  return terms;
+}
+
 /// The equations of a pair of nodes.
 struct Link {
-  const Card* card;
+  std::vector<const Card*> cards;
   std::set<int> components;
 };
 
-/// Equations of two terms by the node that follows and the one that it follows.
+/// Equations of two terms, A and -A, by the node that follows and the one that it follows.
 using Links = std::map<std::pair<std::int64_t, std::int64_t>, Link>;
 
-void add_equation(Links& links, const Card& card)
+void add_link(Links& links, const Card& card)
 {
-  card.expect_blank(8, std::max<std::size_t>(8, card.n_fields()),
-                    "has more than two terms; a scene has no equations but rigid links");
-  const auto c = card.components(3);
-  if (c.size() != 1 || card.components(6) != c)
-    card.refuse("joins two components; a scene's rigid link joins each one with itself");
-  if (card.real(4, "A1") != -card.real(7, "A2") || card.real(4, "A1") == 0.0)
-    card.refuse("its coefficients are not A and -A, as in a rigid link");
-  const std::pair nodes{card.integer(2, "G1"), card.integer(5, "G2")};
-  links.try_emplace(nodes, Link{.card = &card, .components = {}})
-      .first->second.components.insert(c.front());
+  const std::vector<MpcTerm> terms = terms_of(card);
+  if (terms.size() != 2 || terms[0].component != terms[1].component ||
+      terms[0].factor != -terms[1].factor || terms[0].factor == 0.0)
+    return;
+  Link& link = links[{terms[0].node, terms[1].node}];
+  link.cards.push_back(&card);
+  link.components.insert(terms[0].component);
 }
 
 /// The nodes stand at one place.
@@ -568,31 +700,19 @@ bool are_together(const Deck& deck, std::int64_t a, std::int64_t b)
   return norm(minus(first->second, second->second)) <= same_place * norm(first->second);
 }
 
-std::vector<RigidElement> links_of_equations(std::span<const Card> cards, const Deck& deck)
+/// Those that join all components of two nodes at one place.
+Links rigid_links(std::span<const Card> cards, const Deck& deck)
 {
   const std::set<std::int64_t> sets = chosen_sets(cards, "MPC").sets;
   Links links;
   for (const Card& card : cards)
-    if (card.name() == "MPC" && sets.contains(card.integer(1, "SID"))) add_equation(links, card);
-  std::vector<RigidElement> elements;
-  for (const auto& [nodes, link] : links) {
-    if (link.components.size() != 6) {
-      link.card->refuse(fmt::format(
-          "joins {} of 6 components of the nodes {} and {}; a scene's rigid link joins all of them",
-          link.components.size(), nodes.first, nodes.second));
-    }
-    if (!are_together(deck, nodes.first, nodes.second)) {
-      link.card->refuse(fmt::format(
-          "its nodes {} and {} are apart, where equal displacements and rotations are no rigid "
-          "link; take RBE2 or RBAR",
-          nodes.first, nodes.second));
-    }
-    elements.push_back({.group = fmt::format("mpc_{}_{}", link.card->field(1), nodes.first),
-                        .reference = nodes.second,
-                        .nodes = {nodes.first},
-                        .card = link.card});
-  }
-  return elements;
+    if (card.name() == "MPC" && sets.contains(card.integer(1, "SID"))) add_link(links, card);
+  std::erase_if(links, [&](const auto& of) {
+    const auto& [nodes, link] = of;
+    return link.components.size() != 6 || !are_together(deck, nodes.first, nodes.second) ||
+           deck.axes.contains(nodes.first) || deck.axes.contains(nodes.second);
+  });
+  return links;
 }
 
 /// The numbers of the sets of the bulk data, by the cards that define them.
@@ -705,8 +825,6 @@ std::vector<HeldNodes> held_nodes(const Card& card, const Deck& deck)
   std::vector<HeldNodes> held;
   for (const std::size_t first : {std::size_t{2}, std::size_t{5}}) {
     if (!card.has(first)) continue;
-    if (card.real_or(first + 2, "a displacement", 0.0) != 0.0)
-      card.refuse("prescribes a displacement; a scene's support holds at zero only");
     held.push_back({.set = set,
                     .components = card.components(first + 1),
                     .nodes = {card.integer(first, "number of a node")}});
@@ -732,8 +850,34 @@ std::vector<RigidElement> rigid_elements(std::span<const Card> cards, const Deck
     if (card.name() == "RBE3") elements.push_back(rbe3(card));
     if (card.name() == "RBAR") elements.push_back(rbar(card));
   }
-  std::ranges::move(links_of_equations(cards, deck), std::back_inserter(elements));
+  for (const auto& [nodes, link] : rigid_links(cards, deck)) {
+    elements.push_back(
+        {.group = fmt::format("mpc_{}_{}", link.cards.front()->field(1), nodes.first),
+         .reference = nodes.second,
+         .nodes = {nodes.first},
+         .card = link.cards.front()});
+  }
   return elements;
+}
+
+std::vector<DeckEquation> equations_of_cards(std::span<const Card> cards, const Deck& deck)
+{
+  const std::set<std::int64_t> sets = chosen_sets(cards, "MPC").sets;
+  std::set<const Card*> of_links;
+  for (const auto& [nodes, link] : rigid_links(cards, deck))
+    of_links.insert(link.cards.begin(), link.cards.end());
+  std::vector<DeckEquation> equations;
+  for (const Card& card : cards) {
+    if (card.name() != "MPC" || !sets.contains(card.integer(1, "SID")) || of_links.contains(&card))
+      continue;
+    equations.push_back(
+        {.entry = fmt::format("{}: MPC {}", card.place(), card.field(1)), .terms = {}});
+    for (const auto& [node, component, factor] : terms_of(card)) {
+      if (!deck.nodes.contains(node)) card.refuse(fmt::format("there is no GRID {}", node));
+      add_term(deck, equations.back(), {node, component, factor});
+    }
+  }
+  return equations;
 }
 
 }  // namespace chladni::mesh

@@ -44,6 +44,9 @@ DeckSystems nastran_systems(std::span<const Card> cards);
 /// The position in the basic system of a point with coordinates x in `system`.
 std::array<double, 3> basic_position(const DeckSystem& system, const std::array<double, 3>& x);
 
+/// The axes of a system at a point of the basic system: of a cylindrical one e_r, e_theta, e_z.
+DeckAxes axes_at(const DeckSystem& system, const std::array<double, 3>& x);
+
 /// Nodes that an SPC or SPC1 holds, and their held components.
 struct HeldNodes {
   std::int64_t set;
@@ -67,11 +70,17 @@ std::string name_of_held_by_grid(const std::vector<int>& components);
 
 /// The name "conm2_5" of the group of the node of a CONM2.
 std::string name_of_mass(const Card& card);
-/// The name "celas_7_1" of the group of the node at end 1 or 2 of a spring.
+/// The name "celas_7_1", or "cbush_7_1", of the group of the node at end 1 or 2 of a spring.
 std::string name_of_spring(const Card& card, int end);
 
-/// The two nodes of a CELAS1 or CELAS2; 0 is the ground.
+/// The two nodes of a CELAS1, CELAS2 or CBUSH; 0 is the ground.
 std::array<std::int64_t, 2> nodes_of_spring(const Card& card);
+
+bool is_rod(const Card& card);
+/// The nodes of a CROD or CONROD.
+std::array<std::int64_t, 2> nodes_of_rod(const Card& card);
+/// The name "rod_8" of the group of the elongation of a rod, or of its end 1 or 2, "rod_8_1".
+std::string name_of_rod(const Card& card, int end);
 
 class Holders;
 /// Adds masses and springs at nodes.
@@ -83,6 +92,10 @@ void declare_points(std::span<const Card> cards, const Deck& deck, const DeckUni
 /// The section of a PBARL in the units of the deck, without group and material.
 /// @throws chladni::Error for an unknown shape.
 DeclaredBeam bar_of_shape(const Card& card);
+
+/// The vector of a CBAR or CBEAM, towards Nastran's y axis, of length 1, in the basic system.
+/// @throws chladni::Error when it has none
+std::array<double, 3> vector_of_beam(const Card& card, const Deck& deck);
 
 /// The components that the field PS of a GRID holds.
 std::vector<int> held_by_grid(const Card& card);
@@ -103,15 +116,22 @@ struct RigidElement {
   std::int64_t reference;
   std::vector<std::int64_t> nodes;
   const Card* card;  ///< the first one of it
+  /// Of one that is no coupling of a scene: what follows, or is averaged.
+  std::vector<int> components = {};
+  std::map<std::int64_t, double> weights = {};  ///< of an average, by node
 
+  bool is_of_equations() const { return !components.empty(); }
   bool averages() const { return card->name() == "RBE3"; }
   /// An average of displacements alone, which leaves the rotations of its reference node free.
   bool is_of_displacements() const { return averages() && card->components(4).size() == 3; }
 };
 
-/// Reads RBE2, RBE3, RBAR and the equations (MPC) of the chosen set, of which six of two terms each
+/// Reads RBE2, RBE3, RBAR and the equations (MPC) of the chosen set of which six of two terms each
 /// make a rigid link.
-/// @throws chladni::Error for anything that is not wholly rigid, or no plain average.
+/// @throws chladni::Error for a bar that is not wholly rigid, or averages of rotations.
 std::vector<RigidElement> rigid_elements(std::span<const Card> cards, const Deck& deck);
+
+/// Reads the other equations (MPC) of the chosen set.
+std::vector<DeckEquation> equations_of_cards(std::span<const Card> cards, const Deck& deck);
 
 }  // namespace chladni::mesh

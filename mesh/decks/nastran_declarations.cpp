@@ -91,10 +91,7 @@ class NastranDeclarer {
  public:
   NastranDeclarer(std::span<const Card> cards, const Deck& deck, const DeckUnits& units)
       : cards_(cards), deck_(deck), units_(units), holders_(deck)
-  {
-    for (const Card& card : cards)
-      if (card.name() == "GRID" && card.has(6)) output_system_[card.integer(1, "ID")] = &card;
-  }
+  {}
 
   Declarations declare()
   {
@@ -190,8 +187,16 @@ class NastranDeclarer {
                            .offset = 0.0});
   }
 
-  /// @param factor_y, factor_z  of the scene's axes: z is Nastran's y, along its vector
-  void add_beam(const Card& card, const std::string& group, DeclaredBeam beam)
+  /// For each group of the property, which has one vector.
+  void add_beam(const Card& card, const std::string& property, const DeclaredBeam& beam)
+  {
+    for (const DeckGroup& group : deck_.groups)
+      if (group.name == property || group.name.starts_with(property + "_"))
+        add_beam_of_group(card, group.name, beam);
+  }
+
+  /// The scene's z is Nastran's y, along its vector.
+  void add_beam_of_group(const Card& card, const std::string& group, DeclaredBeam beam)
   {
     beam.group = group;
     beam.material = material_name(card, 2);
@@ -266,43 +271,12 @@ class NastranDeclarer {
   /// The vector that all beams of a group share.
   Vector orientation_of(const std::string& group) const
   {
-    std::optional<Vector> common;
-    for (const Card& card : cards_) {
-      const bool is_bar = card.name() == "CBAR";
-      if (!is_bar && card.name() != "CBEAM") continue;
-      if (fmt::format("{}_{}", is_bar ? "pbar" : "pbeam",
-                      card.integer_or(2, "PID", card.integer(1, "EID"))) != group)
-        continue;
-      const Vector own = vector_of(card);
-      constexpr double written = 1e-4;
-      if (norm(minus(own, common.value_or(own))) > written) {
-        card.refuse(
-            fmt::format("its vector differs from that of others of {}; give each direction "
-                        "a property of its own",
-                        group));
-      }
-      if (!common) common = own;
-    }
-    return common.value_or(Vector{0.0, 0.0, 1.0});
-  }
-
-  /// Towards Nastran's y axis, of length 1.
-  Vector vector_of(const Card& card) const
-  {
-    const std::int64_t end = card.integer(3, "GA");
-    Vector v = card.vector_or_zero(5, "a component");
-    const bool is_node = !card.has(6) && !card.has(7) && card.has(5) &&
-                         card.field(5).find('.') == std::string_view::npos;
-    if (is_node) {
-      const auto to = deck_.nodes.find(card.integer(5, "G0")), from = deck_.nodes.find(end);
-      if (to == deck_.nodes.end() || from == deck_.nodes.end()) card.refuse("its G0 is not there");
-      v = minus(to->second, from->second);
-    } else if (const auto system = output_system_.find(end);
-               system != output_system_.end() && system->second->integer(6, "CD") != 0) {
-      card.refuse("its vector is in the system CD of its node; only the basic one is known");
-    }
-    if (!(norm(v) > 0.0)) card.refuse("has no vector to orient it");
-    return unit(v);
+    const auto g = std::ranges::find(deck_.groups, group, &DeckGroup::name) - deck_.groups.begin();
+    const auto element = std::ranges::find(deck_.elements, int(g), &DeckElement::group);
+    for (const Card& card : cards_)
+      if ((card.name() == "CBAR" || card.name() == "CBEAM") && card.place() == element->place)
+        return vector_of_beam(card, deck_);
+    return {0.0, 0.0, 1.0};
   }
 
   /// What `make` returns; its errors get the card.
@@ -317,19 +291,17 @@ class NastranDeclarer {
 
   void support(const Card& card, const std::string& group, const HeldNodes& held)
   {
-    for (const std::int64_t node : held.nodes) {
-      const auto system = output_system_.find(node);
-      const bool is_turned =
-          system != output_system_.end() && system->second->integer(6, "CD") != 0;
-      if (is_turned && held.components.size() != 6) {
-        card.refuse(
-            fmt::format("holds components of node {} in its system CD; only the basic one "
-                        "is known",
-                        node));
-      }
+    const auto in_basic_axes =
+        told(card, [&] { return holders_.held_in_basic_axes(deck_, held.nodes, held.components); });
+    if (in_basic_axes.size() < held.nodes.size()) {
+      all_.notes.push_back(fmt::format(
+          "{} {}: components in the system CD of nodes are held as equations, which the "
+          "mesh has and the scene does not show",
+          card.place(), card.name()));
+      if (in_basic_axes.empty()) return;
     }
     const std::string entry = fmt::format("{}: {} {}", card.place(), card.name(), card.field(1));
-    const auto nodes = supported_nodes(holders_, entry, held.nodes, all_);
+    const auto nodes = supported_nodes(holders_, entry, in_basic_axes, all_);
     for (const std::string& holder : told(card, [&] { return holders_.of(group, nodes); }))
       add_support(all_, holder, held.components);
   }
@@ -354,6 +326,12 @@ class NastranDeclarer {
         support_of_grid(card, held);
       }
       if (card.name() != "SPC" && card.name() != "SPC1") continue;
+      const auto moves = [&](std::size_t i) { return card.real_or(i, "D", 0.0) != 0.0; };
+      if (card.name() == "SPC" && (moves(4) || moves(7))) {
+        all_.notes.push_back(fmt::format(
+            "{}: SPC {} prescribes a displacement; small vibrations have it held at zero",
+            card.place(), card.field(1)));
+      }
       for (const HeldNodes& held : held_nodes(card, deck_))
         if (chosen.sets.contains(held.set))
           support(card, name_of_held(held.set, held.components), held);
@@ -364,7 +342,6 @@ class NastranDeclarer {
   const Deck& deck_;
   DeckUnits units_;
   Holders holders_;
-  std::map<std::int64_t, const Card*> output_system_;  ///< by node, where its CD is given
   Declarations all_;
 };
 
@@ -393,12 +370,13 @@ class PointDeclarer {
  public:
   PointDeclarer(std::span<const Card> cards, const Deck& deck, const DeckUnits& units,
                 const Holders& holders, Declarations& all)
-      : deck_(deck), units_(units), holders_(holders), all_(all)
+      : deck_(deck), units_(units), holders_(holders), all_(all), known_(deck)
   {
     for (const Card& card : cards) {
       if (card.name() == "GRID" && card.integer_or(6, "CD", 0) != 0)
         in_own_axes_.insert(card.integer(1, "ID"));
       if (card.name() == "PELAS") add_properties(card);
+      if (card.name() == "PBUSH") bush_of_.emplace(card.integer(1, "PID"), &card);
     }
     mass_factor_ = mass_factor(cards);
   }
@@ -442,7 +420,119 @@ class PointDeclarer {
     spring(card, card.real(2, "K"), scalar_element(card));
   }
 
+  /// Springs for elongation and torsion, a mass of half of the rod at each end. A CROD has a PROD:
+  /// PID MID A J C NSM; of a CONROD these stand behind its nodes.
+  void rod(const Card& card, std::span<const Card> cards)
+  {
+    const Card* property = &card;
+    if (card.name() == "CROD") {
+      const std::int64_t number = card.integer_or(2, "PID", card.integer(1, "EID"));
+      const auto is_it = [&](const Card& other) {
+        return other.name() == "PROD" && other.integer(1, "PID") == number;
+      };
+      const auto found = std::ranges::find_if(cards, is_it);
+      if (found == cards.end()) card.refuse(fmt::format("there is no PROD {}", number));
+      property = &*found;
+    }
+    const std::size_t first = card.name() == "CROD" ? 2 : 4;  // of MID
+    const std::int64_t mid = property->integer(first, "MID");
+    const auto of_it = std::ranges::find_if(cards, [&](const Card& other) {
+      return other.name() == "MAT1" && other.integer(1, "MID") == mid;
+    });
+    if (of_it == cards.end()) property->refuse(fmt::format("there is no MAT1 {}", mid));
+    std::vector<std::string> told_elsewhere;
+    const DeclaredMaterial stuff = material(*of_it, units_, told_elsewhere);
+    const auto [a, b] = nodes_of_rod(card);
+    const double length = norm(minus(position(card, b), position(card, a))) * units_.length;
+    const double area = property->real_or(first + 1, "A", 0.0) * units_.area(),
+                 J = property->real_or(first + 2, "J", 0.0) * units_.second_moment(),
+                 shear = stuff.young / (2.0 + 2.0 * stuff.poisson);
+    DeclaredSpring spring{.at = name_of_rod(card, 0), .stiffness = {stuff.young * area / length}};
+    if (J > 0.0 && known_.rotating.contains(a) && known_.rotating.contains(b))
+      spring.stiffness[3] = shear * J / length;
+    all_.springs.push_back(spring);
+    const double of_length =
+        property->real_or(first + 4, "NSM", 0.0) * units_.mass() / units_.length;
+    const double mass = mass_factor_ * (stuff.density * area + of_length) * length;
+    for (const int end : {1, 2})
+      if (mass > 0.0) {
+        all_.masses.push_back({.at = holder(card, name_of_rod(card, end), end == 1 ? a : b),
+                               .mass = 0.5 * mass,
+                               .inertia = {},
+                               .offset = {}});
+      }
+  }
+
+  /// EID PID GA GB, a vector or G0, CID: six springs in axes that must be coordinate axes unless
+  /// all displacements, and all rotations, are alike.
+  void bush(const Card& card)
+  {
+    card.expect_blank(9, std::max<std::size_t>(9, card.n_fields()),
+                      "its place is not in the middle between its nodes");
+    const std::int64_t property = card.integer_or(2, "PID", card.integer(1, "EID"));
+    const auto found = bush_of_.find(property);
+    if (found == bush_of_.end()) card.refuse(fmt::format("there is no PBUSH {}", property));
+    const std::array<double, 6> k = stiffness_of_bush(*found->second);
+    const std::int64_t a = card.integer(3, "GA"), b = card.integer_or(4, "GB", 0);
+    std::array<std::size_t, 3> global{0, 1, 2};
+    const bool is_round = k[0] == k[1] && k[1] == k[2] && k[3] == k[4] && k[4] == k[5];
+    if (!is_round && !(card.has(8) && card.integer(8, "CID") == 0)) {
+      if (card.has(8)) card.refuse("is in the system CID; only the basic one, 0, is known");
+      global = axes_of_bush(card, k);
+    }
+    DeclaredSpring spring{.at = holder(card, name_of_spring(card, 1), a), .stiffness = {}};
+    if (b != 0) spring.to = holder(card, name_of_spring(card, 2), b);
+    for (std::size_t i = 0; i < 3; ++i) {
+      spring.stiffness[global[i]] = k[i] * units_.force / units_.length;
+      spring.stiffness[3 + global[i]] = k[3 + i] * units_.force * units_.length;
+    }
+    all_.springs.push_back(spring);
+  }
+
  private:
+  /// The K of a PBUSH; its damping and stress factors are left out.
+  std::array<double, 6> stiffness_of_bush(const Card& card)
+  {
+    std::array<double, 6> k{};
+    for (std::size_t i = 2; i <= card.n_fields(); i += 8) {
+      const std::string_view word = card.field(i);
+      if (word == "K") {
+        for (std::size_t c = 0; c < 6; ++c) k[c] = card.real_or(i + 1 + c, "a stiffness", 0.0);
+      } else if (word == "B" || word == "GE") {
+        all_.notes.push_back(fmt::format("{}: PBUSH {}: its damping {} is left out", card.place(),
+                                         card.field(1), word));
+      } else if (!word.empty() && word != "RCV") {
+        card.refuse(fmt::format("\"{}\" is not known; K, B, GE and RCV are", word));
+      }
+    }
+    return k;
+  }
+
+  /// The coordinate axes along the axes of a bush: x from GA to GB, y towards the vector.
+  std::array<std::size_t, 3> axes_of_bush(const Card& card, const std::array<double, 6>& k) const
+  {
+    constexpr double straight = 1e-6;
+    const auto nearest = [&](const Vector& v) -> std::size_t {
+      for (std::size_t c = 0; c < 3; ++c)
+        if (std::abs(v[c]) >= (1.0 - straight) * norm(v)) return c;
+      card.refuse("its axes are no coordinate axes, along which springs of a scene act");
+    };
+    const std::int64_t a = card.integer(3, "GA"), b = card.integer_or(4, "GB", 0);
+    const Vector along = b == 0 ? Vector{} : minus(position(card, b), position(card, a));
+    if (!(norm(along) > 0.0))
+      card.refuse("joins nodes at one place, or one to the ground, and has no CID");
+    const std::size_t x = nearest(along);
+    if (k[1] == k[2] && k[4] == k[5]) return {x, (x + 1) % 3, (x + 2) % 3};
+    const bool is_node = card.has(5) && !card.has(6) && !card.has(7) &&
+                         card.field(5).find('.') == std::string_view::npos;
+    const Vector v = is_node ? minus(position(card, card.integer(5, "G0")), position(card, a))
+                             : card.vector_or_zero(5, "a component");
+    const Vector z = cross(along, v);
+    if (!(norm(z) > 0.0)) card.refuse("has no vector to orient it");
+    const std::size_t of_z = nearest(z);
+    return {x, 3 - x - of_z, of_z};
+  }
+
   static void refuse_damping(const Card& card, std::size_t i)
   {
     if (card.real_or(i, "GE", 0.0) != 0.0) {
@@ -535,12 +625,35 @@ class PointDeclarer {
   const DeckUnits& units_;
   const Holders& holders_;
   Declarations& all_;
+  NodesOfDeck known_;
   std::set<std::int64_t> in_own_axes_;
   std::map<std::int64_t, double> stiffness_of_;  ///< of each PELAS
+  std::map<std::int64_t, const Card*> bush_of_;  ///< PBUSH by number
   double mass_factor_ = 1.0;
 };
 
 }  // namespace
+
+Vector vector_of_beam(const Card& card, const Deck& deck)
+{
+  const std::int64_t end = card.integer(3, "GA");
+  Vector v = card.vector_or_zero(5, "a component");
+  const bool is_node = !card.has(6) && !card.has(7) && card.has(5) &&
+                       card.field(5).find('.') == std::string_view::npos;
+  const auto axes = deck.axes.find(end);
+  if (is_node) {
+    const auto to = deck.nodes.find(card.integer(5, "G0")), from = deck.nodes.find(end);
+    if (to == deck.nodes.end() || from == deck.nodes.end()) card.refuse("its G0 is not there");
+    v = minus(to->second, from->second);
+  } else if (axes != deck.axes.end()) {
+    Vector sum{};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += v[i] * axes->second[i][c];
+    v = sum;
+  }
+  if (!(norm(v) > 0.0)) card.refuse("has no vector to orient it");
+  return unit(v);
+}
 
 std::string name_of_mass(const Card& card)
 {
@@ -549,12 +662,30 @@ std::string name_of_mass(const Card& card)
 
 std::string name_of_spring(const Card& card, int end)
 {
-  return fmt::format("celas_{}_{}", card.integer(1, "EID"), end);
+  const char* kind = card.name() == "CBUSH" ? "cbush" : "celas";
+  return fmt::format("{}_{}_{}", kind, card.integer(1, "EID"), end);
 }
 
 std::array<std::int64_t, 2> nodes_of_spring(const Card& card)
 {
-  return {card.integer_or(3, "G1", 0), card.integer_or(5, "G2", 0)};
+  return {card.integer_or(3, "G1", 0), card.integer_or(card.name() == "CBUSH" ? 4 : 5, "G2", 0)};
+}
+
+bool is_rod(const Card& card)
+{
+  return card.name() == "CROD" || card.name() == "CONROD";
+}
+
+std::array<std::int64_t, 2> nodes_of_rod(const Card& card)
+{
+  const std::size_t first = card.name() == "CROD" ? 3 : 2;
+  return {card.integer(first, "G1"), card.integer(first + 1, "G2")};
+}
+
+std::string name_of_rod(const Card& card, int end)
+{
+  const std::string name = fmt::format("rod_{}", card.integer(1, "EID"));
+  return end == 0 ? name : fmt::format("{}_{}", name, end);
 }
 
 void declare_points(std::span<const Card> cards, const Deck& deck, const DeckUnits& units,
@@ -565,6 +696,8 @@ void declare_points(std::span<const Card> cards, const Deck& deck, const DeckUni
     if (card.name() == "CONM2") declarer.mass(card);
     if (card.name() == "CELAS1") declarer.spring_of_property(card);
     if (card.name() == "CELAS2") declarer.spring_with_stiffness(card);
+    if (card.name() == "CBUSH") declarer.bush(card);
+    if (is_rod(card)) declarer.rod(card, cards);
   }
 }
 

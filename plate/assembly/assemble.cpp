@@ -123,6 +123,22 @@ void add_points(std::span<const PointElement> points, const DofMap& dofs,
   }
 }
 
+/// DOFs that no motion has are springs and masses by themselves, whose frequency lies far above
+/// those of the elements.
+void add_unused(const DofMap& dofs, const BlockPattern& pattern, int rank, Sums& sums)
+{
+  const int n = dofs.n_components();
+  for (const int dof : dofs.unused_dofs()) {
+    const PetscInt number = dof / n;
+    if (number < dofs.first_number(rank) || number >= dofs.first_number(rank + 1)) continue;
+    Eigen::MatrixXd one = Eigen::MatrixXd::Zero(n, n);
+    one(dof % n, dof % n) = 1.0;
+    const std::vector<std::ptrdiff_t> place = block_places(pattern, {&number, 1});
+    sums.K.add(one * 1e9, place);
+    sums.M.add(one * 1e-12, place);
+  }
+}
+
 }  // namespace
 
 System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs, MPI_Comm comm)
@@ -137,6 +153,7 @@ System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs,
   else
     add_elements(mesh, structure, dofs, pattern, comm, sums);
   add_points(points, dofs, pattern, sums);
+  add_unused(dofs, pattern, petsc::rank(comm), sums);
   const bool is_lossy =
       has_loss_factors(structure) || (matrices != nullptr && !matrices->H.empty());
   petsc::Matrix C = damping_matrix(points, dofs, comm);

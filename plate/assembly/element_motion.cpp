@@ -168,6 +168,7 @@ BlockPattern element_pattern(const mesh::Mesh& mesh, std::span<const PointElemen
                        [&](const auto&, int, const auto& numbers) { neighbours.connect(numbers); });
   }
   for (const PointElement& point : points) neighbours.connect(active_numbers(dofs, point.nodes));
+  for (const int dof : dofs.unused_dofs()) neighbours.connect({dof / dofs.n_components()});
   BlockPattern pattern = std::move(neighbours).pattern();
   pattern.full = followed_numbers(dofs);
   return pattern;

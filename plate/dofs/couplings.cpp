@@ -720,6 +720,167 @@ NodeMotions average_motions(const mesh::Mesh& mesh, std::span<const Coupling> co
 
 namespace {
 
+/// Factors of coordinates, as 6 * number + place.
+using Factors = std::map<int, double>;
+
+void add_times(Factors& sum, double factor, const Factors& other)
+{
+  for (const auto& [coordinate, value] : other) sum[coordinate] += factor * value;
+}
+
+/// Gauss and Jordan: coordinates as combinations of those that no equation is solved for.
+class SolvedEquations {
+ public:
+  void add(Factors equation, int first)
+  {
+    constexpr double cancelled = 1e-10, small = 1e-2;  // of the largest factor
+    double scale = 0.0;
+    for (const auto& [coordinate, value] : equation) scale = std::max(scale, std::abs(value));
+    equation = substituted(equation);
+    std::erase_if(equation, [&](const auto& f) { return std::abs(f.second) <= cancelled * scale; });
+    if (equation.empty()) return;
+    auto pivot = std::ranges::max_element(
+        equation, {}, [](const auto& factor) { return std::abs(factor.second); });
+    const auto wanted = equation.find(first);
+    if (wanted != equation.end() && std::abs(wanted->second) >= small * std::abs(pivot->second))
+      pivot = wanted;
+    const auto [coordinate, value] = *pivot;
+    equation.erase(pivot);
+    for (auto& [other, factor] : equation) factor /= -value;
+    for (const int user : std::exchange(users_[coordinate], {})) {
+      Factors& by = solved_.at(user);
+      const double factor = by.at(coordinate);
+      by.erase(coordinate);
+      add_times(by, factor, equation);
+      for (const auto& [other, of_other] : equation) users_[other].insert(user);
+    }
+    for (const auto& [other, factor] : equation) users_[other].insert(coordinate);
+    solved_.emplace(coordinate, std::move(equation));
+  }
+
+  Factors substituted(const Factors& factors) const
+  {
+    Factors sum;
+    for (const auto& [coordinate, value] : factors) {
+      const auto found = solved_.find(coordinate);
+      if (found == solved_.end())
+        sum[coordinate] += value;
+      else
+        add_times(sum, value, found->second);
+    }
+    return sum;
+  }
+
+  const std::map<int, Factors>& solved() const { return solved_; }
+
+ private:
+  std::map<int, Factors> solved_;
+  std::map<int, std::set<int>> users_;  ///< of each coordinate: those that are made of it
+};
+
+/// A component of the motion of a node by coordinates.
+Factors component_of(const std::vector<MotionTerm>& motion, int component)
+{
+  Factors factors;
+  for (const MotionTerm& term : motion)
+    for (int c = 0; c < 6; ++c)
+      if (const double value = term.T(component, c); value != 0.0)
+        factors[6 * term.number + c] += value;
+  return factors;
+}
+
+/// The motion of a node without the coordinates that equations are solved for.
+std::vector<MotionTerm> without_solved(const std::vector<MotionTerm>& motion,
+                                       const SolvedEquations& equations)
+{
+  Blocks T;
+  for (int component = 0; component < 6; ++component)
+    for (const auto& [coordinate, value] : equations.substituted(component_of(motion, component))) {
+      T.try_emplace(coordinate / 6, Matrix6d::Zero()).first->second(component, coordinate % 6) =
+          value;
+    }
+  std::vector<MotionTerm> terms;
+  for (const MotionTerm& own : motion) {  // these first, by which pieces of the mesh are known
+    const auto found = T.find(own.number);
+    terms.push_back({own.number, found == T.end() ? Matrix6d::Zero() : found->second});
+    if (found != T.end()) T.erase(found);
+  }
+  for (const auto& [number, block] : T) terms.push_back({number, block});
+  return terms;
+}
+
+/// Components that nodes of equations alone have in none of these are zero.
+SolvedEquations solved_equations(const mesh::Mesh& mesh, const NodeMotions& motions)
+{
+  SolvedEquations all;
+  for (const mesh::Equation& equation : mesh.equations) {
+    Factors sum;
+    for (const auto& [node, component, factor] : equation.terms) {
+      if (component >= 3 && !motions.has_rotations(node)) {
+        throw Error(fmt::format("{}: node {} of a solid has no rotations", equation.place,
+                                mesh.node_numbers[node]));
+      }
+      add_times(sum, factor, component_of(motions.motion(node), component));
+    }
+    const auto& [node, component, factor] = equation.terms.front();
+    const Factors first = component_of(motions.motion(node), component);
+    all.add(sum, first.size() == 1 ? first.begin()->first : -1);
+  }
+  for (const auto& [node, components] : nodes_of_equations_alone(mesh, motions))
+    for (int c = 0; c < 6; ++c)
+      if (const int at = motions.coordinate(node, c); at >= 0 && !components.contains(c))
+        all.add({{at, 1.0}}, at);
+  return all;
+}
+
+}  // namespace
+
+std::map<int, std::set<int>> nodes_of_equations_alone(const mesh::Mesh& mesh,
+                                                      const CoupledNodes& nodes)
+{
+  std::map<int, std::set<int>> components;
+  for (const mesh::Equation& equation : mesh.equations)
+    for (const auto& [node, component, factor] : equation.terms) components[node].insert(component);
+  mesh::for_connected_nodes(mesh, [&](std::span<const int> of_element) {
+    for (const int node : of_element) components.erase(node);
+  });
+  std::erase_if(components, [&](const auto& of) { return nodes.is_dependent(of.first); });
+  for (const int reference : nodes.references) components.erase(reference);
+  return components;
+}
+
+NodeMotions equation_motions(const mesh::Mesh& mesh, NodeMotions motions)
+{
+  if (mesh.equations.empty()) return motions;
+  const SolvedEquations equations = solved_equations(mesh, motions);
+  std::set<int> numbers;
+  for (const auto& [coordinate, by] : equations.solved()) {
+    motions.unused.push_back(coordinate);
+    numbers.insert(coordinate / 6);
+  }
+  std::ranges::sort(motions.unused);
+  const auto is_solved = [&](int at) { return at >= 0 && equations.solved().contains(at); };
+  for (int node = 0; node < motions.n_nodes(); ++node) {
+    if (motions.is_dependent(node)) continue;
+    const std::vector<MotionTerm> before = motions.motion(node);
+    if (std::ranges::none_of(before, [&](const auto& of) { return numbers.contains(of.number); }))
+      continue;
+    CombinedMotion motion{.followed = {}, .terms = {}, .coordinates = {}};
+    if (const auto found = motions.combined.find(node); found != motions.combined.end())
+      motion = found->second;
+    else
+      for (int c = 0; c < 6; ++c) motion.coordinates[c] = motions.coordinate(node, c);
+    for (int& at : motion.coordinates)
+      if (is_solved(at)) at = -1;
+    motion.terms = without_solved(before, equations);
+    motion.n_own = static_cast<int>(before.size());
+    motions.combined[node] = std::move(motion);
+  }
+  return motions;
+}
+
+namespace {
+
 /// int N_i ds along one edge.
 Eigen::VectorXd shares_of_edge(const mesh::Mesh& mesh, const std::vector<int>& edge)
 {

@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -111,12 +112,18 @@ struct CombinedMotion {
   std::array<int, 6> coordinates;
   /// Whether nodes on faces make it, by which all motions remain what the geometry says.
   bool by_faces = false;
+  /// Where equations of the mesh change it: the number of terms that it has without them, which
+  /// come first.
+  int n_own = 0;
 };
 
 /// Nodes with averaging couplings. Such a coupling replaces six displacements of nodes of its group
 /// by the motion of its reference node, whose DOFs take their places.
 struct NodeMotions : NumberedNodes {
   std::map<int, CombinedMotion> combined;  ///< by node
+  /// Coordinates, as 6 * number + place, that no motion has, ascending: equations are solved for
+  /// them.
+  std::vector<int> unused = {};
 
   /// Whether DOFs are other than the motions of the places of their nodes.
   bool has_combined_motions() const;
@@ -151,6 +158,17 @@ NodeMotions face_motions(const mesh::Mesh& mesh, NumberedNodes nodes);
 ///         three nodes, or all of them on one line).
 NodeMotions average_motions(const mesh::Mesh& mesh, std::span<const Coupling> couplings,
                             NodeMotions motions);
+
+/// The nodes of equations that belong to no element and no coupling, and their components in
+/// equations.
+std::map<int, std::set<int>> nodes_of_equations_alone(const mesh::Mesh& mesh,
+                                                      const CoupledNodes& nodes);
+
+/// The motions of nodes with the equations of the mesh, each of which is solved for one coordinate:
+/// that of its first term, unless another equation is solved for it or its factor is small, else
+/// that of the largest factor. An equation that others imply is passed over.
+/// @throws chladni::Error naming an equation with a rotation of a node that has none.
+NodeMotions equation_motions(const mesh::Mesh& mesh, NodeMotions motions);
 
 /// Writes what nodes on faces make of others anew, after the coordinates of some numbers became
 /// combinations of others.

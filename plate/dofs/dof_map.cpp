@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <tuple>
 
 #include "common/error.hpp"
 #include "mesh/nodal_matrices.hpp"
@@ -20,9 +21,11 @@ using Eigen::Index, Eigen::Matrix3d, Eigen::MatrixXd, Eigen::Vector3d, Eigen::Ve
 namespace {
 
 /// The DOFs of averages and harmonics stand in those of a group, whatever component these are.
-void check_components(const Kinematics& kinematics)
+void check_components(const mesh::Mesh& mesh, const Kinematics& kinematics)
 {
   if (kinematics.components.size() == 6) return;
+  if (!mesh.equations.empty())
+    throw Error(fmt::format("{} needs all six DOFs of each node", mesh.equations.front().place));
   if (!kinematics.rings.empty()) {
     throw Error(fmt::format("ring \"{}\": harmonics need all six DOFs of each node",
                             kinematics.rings.front().ring));
@@ -137,7 +140,7 @@ void refuse_lines(const mesh::Mesh& mesh, std::span<const Coupling> couplings,
 }
 
 /// The nodes with rotations in a model with solids: those of shells and beams, reference nodes, and
-/// nodes that others follow as a rigid body.
+/// nodes that others follow as a rigid body, also by equations.
 /// @return [n_nodes]; empty for a mesh without solids
 std::vector<char> rotating_nodes(const mesh::Mesh& mesh, std::span<const Coupling> couplings,
                                  const CoupledNodes& nodes)
@@ -150,6 +153,8 @@ std::vector<char> rotating_nodes(const mesh::Mesh& mesh, std::span<const Couplin
   with.rotating.resize(std::size_t(nodes.n_nodes()), 1);
   for (const Coupling& coupling : couplings)
     if (coupling.kind == CouplingKind::rigid) with.rotating[end_of(mesh, nodes, coupling)] = 1;
+  for (const auto& [node, components] : nodes_of_equations_alone(mesh, nodes))
+    if (*components.rbegin() >= 3) with.rotating[std::size_t(node)] = 1;
   refuse_lines(mesh, couplings, nodes, of);
   for (const Coupling& coupling : couplings)
     if (coupling.kind == CouplingKind::link) refuse_hinges(mesh, with, of, coupling);
@@ -173,6 +178,24 @@ std::optional<int> DofMap::dof(int node, int component) const
   const auto it = combined.find(node);
   return dof_at(it == combined.end() ? coordinate(node, component)
                                      : it->second.coordinates[std::size_t(component)]);
+}
+
+std::vector<int> DofMap::unused_dofs() const
+{
+  std::vector<int> dofs;
+  for (const int coordinate : unused)
+    if (const auto dof = dof_at(coordinate)) dofs.push_back(*dof);
+  return dofs;
+}
+
+std::vector<int> DofMap::own_numbers(int node) const
+{
+  std::vector<int> numbers;
+  for (const MotionTerm& term : motion(node)) numbers.push_back(term.number);
+  const auto found = combined.find(is_dependent(node) ? reference(node) : node);
+  if (found != combined.end() && found->second.n_own > 0)
+    numbers.resize(std::size_t(found->second.n_own));
+  return numbers;
 }
 
 std::optional<int> DofMap::harmonic_dof(const HarmonicRing& ring, int k, int component) const
@@ -230,8 +253,9 @@ DofMap make_dof_map(const mesh::Mesh& mesh, const Kinematics& kinematics,
     numbering[std::size_t(on_face.node)] = -1;
   NumberedNodes numbered = number_nodes(std::move(coupled), couplings, numbering, n_ranks);
   NodeMotions averaged = average_motions(mesh, couplings, face_motions(mesh, std::move(numbered)));
-  check_components(kinematics);
-  return {with_ring_harmonics(mesh, std::move(averaged), kinematics.rings),
+  NodeMotions solved = equation_motions(mesh, std::move(averaged));
+  check_components(mesh, kinematics);
+  return {with_ring_harmonics(mesh, std::move(solved), kinematics.rings),
           has_solids ? std::vector{0, 1, 2} : kinematics.components};
 }
 
@@ -377,7 +401,9 @@ void check_nodes(const NodeMotions& motions, const Circle& circle, const std::st
     throw Error(fmt::format(
         "ring \"{}\": its nodes {}; harmonics need nodes that belong to no coupling and to no "
         "other ring of harmonics",
-        ring, other.empty() ? "take part in an average" : fmt::format("follow \"{}\"", other)));
+        ring,
+        other.empty() ? "take part in an average or an equation"
+                      : fmt::format("follow \"{}\"", other)));
   }
 }
 
@@ -432,6 +458,33 @@ namespace {
                           support.group, mesh.node_numbers[node], followed, followed));
 }
 
+/// A component that equations make of others is at rest if these are held.
+void check_at_rest(const mesh::Mesh& mesh, const DofMap& dofs, const std::vector<int>& held,
+                   const Support& support, int node, int component)
+{
+  const auto has_node = [&](const mesh::Equation& equation) {
+    return std::ranges::find(equation.terms, node, &mesh::Equation::Term::node) !=
+           equation.terms.end();
+  };
+  const auto equation = std::ranges::find_if(mesh.equations, has_node);
+  if (equation == mesh.equations.end()) {
+    if (component >= 3 && !dofs.has_rotations(node)) return;
+    refuse_dependent(mesh, dofs, support, node);
+  }
+  for (const MotionTerm& term : dofs.motion(node)) {
+    for (int c = 0; c < 6; ++c) {
+      const auto dof = dofs.dof_of_number(term.number, c);
+      if (term.T(component, c) == 0.0 || !dof || std::ranges::binary_search(held, *dof)) continue;
+      throw Error(
+          fmt::format("support of \"{}\": {} of node {} follows other nodes by an equation ({}); "
+                      "hold these, or "
+                      "take the node out",
+                      support.group, component_names[std::size_t(component)],
+                      mesh.node_numbers[node], equation->place));
+    }
+  }
+}
+
 /// Rotations beside displacements are of no consequence: a solid has none that could move.
 void refuse_rotations_of_solids(const mesh::Mesh& mesh, const DofMap& dofs, const Support& support,
                                 int node)
@@ -450,6 +503,7 @@ std::vector<int> held_dofs(const mesh::Mesh& mesh, const DofMap& dofs,
                            std::span<const Support> supports)
 {
   std::vector<int> held;
+  std::vector<std::tuple<const Support*, int, int>> combined;  // node, component
   for (const Support& support : supports) {
     const std::vector<int> nodes = dofs.named_nodes(mesh, support.group);
     if (nodes.empty())
@@ -458,14 +512,17 @@ std::vector<int> held_dofs(const mesh::Mesh& mesh, const DofMap& dofs,
       refuse_rotations_of_solids(mesh, dofs, support, node);
       for (const int component : support.components) {
         const auto dof = dofs.dof(node, component);
-        if (!dof && dofs.is_plain(node)) continue;  // the model holds it, or a solid has none
-        if (!dof) refuse_dependent(mesh, dofs, support, node);
-        held.push_back(*dof);
+        if (dof)
+          held.push_back(*dof);
+        else if (!dofs.is_plain(node))  // else the model holds it, or a solid has none
+          combined.emplace_back(&support, node, component);
       }
     }
   }
   std::ranges::sort(held);
   held.erase(std::unique(held.begin(), held.end()), held.end());
+  for (const auto& [support, node, component] : combined)
+    check_at_rest(mesh, dofs, held, *support, node, component);
   return held;
 }
 

@@ -73,12 +73,17 @@ class DofMap : RingMotions {
       RingMotions::is_independent, RingMotions::is_plain, RingMotions::motion;
   using RingMotions::first_number, RingMotions::n_active, RingMotions::n_independent,
       RingMotions::number;
+  /// DOFs that no motion has, as equations are solved for them; ascending.
+  std::vector<int> unused_dofs() const;
+  /// The numbers that the motion of a node has without the equations of the mesh.
+  std::vector<int> own_numbers(int node) const;
   /// The second number of a node, of its rotations; -1 without one.
   int rotation_number(int node) const { return rotation_numbers[static_cast<std::size_t>(node)]; }
   using RingMotions::has_rotations;
   using RingMotions::is_dependent, RingMotions::n_mesh_nodes, RingMotions::n_nodes,
       RingMotions::named_nodes, RingMotions::position, RingMotions::reference,
       RingMotions::reference_name, RingMotions::reference_node;
+  const CoupledNodes& coupled() const { return *this; }
   const std::vector<HarmonicRing>& harmonic_rings() const { return rings; }
   const std::vector<int>& components() const { return components_; }
   int n_components() const { return static_cast<int>(components_.size()); }

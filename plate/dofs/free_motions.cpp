@@ -49,7 +49,7 @@ class Connection {
 /// The part of each active number, and which parts springs connect.
 struct Parts {
   std::vector<int> of_number;
-  std::vector<int> body;   ///< [n_parts] parts that springs connect are one body
+  std::vector<int> body;   ///< [n_parts] parts that springs or equations connect are one body
   std::vector<int> place;  ///< [n_parts] of the part in its body
   int n_bodies = 0;
 };
@@ -133,7 +133,7 @@ Parts connected_parts(const mesh::Mesh& mesh, const DofMap& dofs,
   mesh::for_connected_nodes(mesh, [&](std::span<const int> nodes) {
     const int first = number_of(dofs, nodes[0]);
     for (const int node : nodes)
-      for (const MotionTerm& term : dofs.motion(node)) connection.join(first, term.number);
+      for (const int number : dofs.own_numbers(node)) connection.join(first, number);
   });
   join_over_sectors(mesh, dofs, connection);
   Parts parts{.of_number = numbered(connection, dofs.n_active()), .body = {}, .place = {}};
@@ -144,6 +144,11 @@ Parts connected_parts(const mesh::Mesh& mesh, const DofMap& dofs,
     bodies.join(parts.of_number[number_of(dofs, spring.nodes[0])],
                 parts.of_number[number_of(dofs, spring.nodes[1])]);
   }
+  for (const mesh::Equation& equation : mesh.equations)
+    for (const mesh::Equation::Term& term : equation.terms) {
+      bodies.join(parts.of_number[number_of(dofs, equation.terms.front().node)],
+                  parts.of_number[number_of(dofs, term.node)]);
+    }
   parts.body = numbered(bodies, n_parts);
   parts.n_bodies = count_of(parts.body);
   std::vector<int> n_of_body(parts.n_bodies, 0);
@@ -226,6 +231,21 @@ class Resistance {
       for (const Matrix3d& turn : turns_)
         resist(spring.nodes, rigid_row(turn * middle, extents_[body_of(a)], component));
   }
+  /// Equations allow the motions alone that satisfy them.
+  void add(const mesh::Equation& equation)
+  {
+    const int body = body_of(equation.terms.front().node);
+    double largest = 0.0;
+    for (const mesh::Equation::Term& term : equation.terms)
+      largest = std::max(largest, std::abs(term.factor));
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(rows_[std::size_t(body)].cols());
+    for (const auto& [node, component, factor] : equation.terms) {
+      const double unit = component < 3 ? 1.0 : 1.0 / extents_[std::size_t(body)].length;
+      row.segment<6>(6 * parts_.place[part_of(node)]) +=
+          factor / largest * unit * rigid_row(dofs_.position(node), extents_[body], component);
+    }
+    resist(body, row);
+  }
   /// The motions of a body that nothing resists, orthonormal.
   MatrixXd unresisted(int body) const
   {
@@ -243,10 +263,16 @@ class Resistance {
   /// @param nodes  one against the ground, or two against each other
   void resist(std::span<const int> nodes, const RowVector6d& motion)
   {
-    MatrixXd& R = rows_[body_of(nodes.front())];
-    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(R.cols());
+    const int body = body_of(nodes.front());
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(rows_[std::size_t(body)].cols());
     row.segment<6>(6 * parts_.place[part_of(nodes.front())]) += motion;
     if (nodes.size() > 1) row.segment<6>(6 * parts_.place[part_of(nodes.back())]) -= motion;
+    resist(body, row);
+  }
+
+  void resist(int body, const Eigen::RowVectorXd& row)
+  {
+    MatrixXd& R = rows_[std::size_t(body)];
     R.conservativeResize(R.rows() + 1, Eigen::NoChange);
     R.row(R.rows() - 1) = row;
     if (R.rows() < 4 * R.cols()) return;
@@ -308,6 +334,10 @@ std::vector<FreePart> free_parts_under(const mesh::Mesh& mesh, const DofMap& dof
   Resistance resistance(dofs, parts, extent, turns_of(mesh.sectors));
   hold_supports(dofs, restraints, resistance);
   for (const PlacedSpring& spring : placed) resistance.add(spring);
+  for (const mesh::Equation& equation : mesh.equations) resistance.add(equation);
+  for (const auto& [node, components] : nodes_of_equations_alone(mesh, dofs.coupled()))
+    for (int c = 0; c < 6; ++c)
+      if (!components.contains(c)) resistance.hold(node, c, Vector3d::Zero());
   std::vector<FreePart> free;
   for (int body = 0; body < parts.n_bodies; ++body) {
     MatrixXd motions = resistance.unresisted(body);
@@ -350,6 +380,8 @@ void check_stiffness_of_all_nodes(const mesh::Mesh& mesh, const DofMap& dofs)
     for (const int node : nodes)
       for (const MotionTerm& term : dofs.motion(node)) touched[term.number] = true;
   });
+  for (const auto& [node, components] : nodes_of_equations_alone(mesh, dofs.coupled()))
+    touched[dofs.number(node)] = true;
   for (int node = 0; node < dofs.n_nodes(); ++node) {
     if (dofs.number(node) < 0 || touched[dofs.number(node)]) continue;
     if (node >= dofs.n_mesh_nodes()) {

@@ -1,5 +1,6 @@
 #include "plate/refinement/refined_mesh.hpp"
 
+#include <fmt/format.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/error.hpp"
 #include "mesh/element_types.hpp"
 #include "mesh/mesh.hpp"
 #include "plate/elements/interpolation.hpp"
@@ -881,6 +883,13 @@ class Refiner {
 
 RefinedMesh refined(const Mesh& mesh, const Refinement& refinement)
 {
+  if (!mesh.equations.empty()) {
+    throw Error(
+        fmt::format("{}: equations and ties hold at the nodes of this mesh alone, so that a finer "
+                    "one, by which "
+                    "errors are estimated, has none; take accuracy and mesh_errors out",
+                    mesh.equations.front().place));
+  }
   return Refiner(mesh, refinement).result();
 }
 

@@ -1,15 +1,17 @@
 """A plate from a deck of Nastran or Abaqus has the frequencies of the same mesh from Gmsh's format, with the scene that is
-made of the deck and with one by hand.
+made of the deck and with one by hand. A body in two parts that equations or a tie join has those of the body in one piece, supports in
+axes of their own those of a turned body, and cards of Nastran for rigid bodies and means those of the equations that they stand for.
 
 Usage: decks.py PROGRAM_DIR
 """
 
+import math
 import sys
 import tempfile
 from pathlib import Path
 
 from plate_files import THICKNESS, frequencies, gmsh_file, grid, scene
-from running import run, start
+from running import run, start, summary
 
 
 def card(name, *fields):
@@ -80,12 +82,146 @@ def bad_decks_are_refused(chladni, folder):
         yield f"a material that is none: {done.stderr}"
 
 
+def body(*parts, turn=0.0, end=""):
+    """Blocks (x from, x to, elements along x, y and z) of 10 mm x 8 mm in an input file; node sets LOW_k and HIGH_k of their ends, elements LAST_k at HIGH_k."""
+    lines, sets, node, element = ["*Node"], [], 0, 0
+    c, s = math.cos(turn), math.sin(turn)
+    for p, (low, high, n_x, n_y, n_z) in enumerate(parts):
+        number = {}
+        for i in range(n_x + 1):
+            for j in range(n_y + 1):
+                for k in range(n_z + 1):
+                    node += 1
+                    number[i, j, k] = node
+                    x, y = low + (high - low) * i / n_x, 10 * j / n_y
+                    lines.append(f"{node}, {c * x - s * y!r}, {s * x + c * y!r}, {8 * k / n_z!r}")
+        sets.append(f"*Element, type=C3D8, elset=Part{p}")
+        first = element + 1
+        for i in range(n_x):
+            for j in range(n_y):
+                for k in range(n_z):
+                    element += 1
+                    sets.append(", ".join(map(str, [element, *(number[i + a, j + b, k + e] for e in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)))])))
+        sets += [f"*Elset, elset=Last_{p}, generate", f"{element + 1 - n_y * n_z}, {element}", f"*Elset, elset=All, generate", f"{first}, {element}"]
+        for name, i in ("Low", 0), ("High", n_x):
+            sets += [f"*Nset, nset={name}_{p}"] + [f"{number[i, j, k]}," for j in range(n_y + 1) for k in range(n_z + 1)]
+    return "\n".join([*lines, *sets, "*Material, name=Steel", "*Elastic", "2.1e5, 0.3", "*Density", "7.85e-9,", "*Solid Section, elset=All, material=Steel", end, ""])
+
+
+TIE = "*Surface, name=Follows, type=node\nLow_1\n*Surface, name=Leads\nLast_0, S4\n*Tie, name=T\nFollows, Leads\n"
+
+
+def modes(chladni, folder, name, text):
+    """The summary of `chladni modes` of the scene that `chladni import` makes."""
+    (folder / name).write_text(text)
+    run(chladni, "import", folder / name, "--length-unit", "mm", "--output", folder / f"{name}.toml")
+    return summary(chladni, "modes", folder / f"{name}.toml", "--output", folder)
+
+
+def same(what, found, expected, of=1e-9):
+    for f, g in zip(found["frequencies_Hz"], expected["frequencies_Hz"], strict=True):
+        if abs(f - g) > of * max(g, 100.0):  # frequencies of free bodies are 0 to rounding
+            yield f"{what}: {f} Hz instead of {g} Hz"
+
+
+def parts_are_joined(chladni, folder):
+    """By equations of sets, and by a tie of faces with the same nodes; of faces with other nodes rigid motions stay free."""
+    held, halves = "*Boundary\nLow_0, 1, 3\n", ((0, 20, 4, 2, 2), (20, 40, 4, 2, 2))
+    whole = modes(chladni, folder, "whole.inp", body((0, 40, 8, 2, 2), end=held))
+    equations = "*Equation\n" + "".join(f"2\nLow_1, {c}, 2., High_0, {c}, -2.\n" for c in (1, 2, 3))
+    yield from same("equations", modes(chladni, folder, "equations.inp", body(*halves, end=equations + held)), whole)
+    yield from same("a tie", modes(chladni, folder, "tie.inp", body(*halves, end=TIE + held)), whole)
+    free = modes(chladni, folder, "free.inp", body((0, 20, 4, 2, 2), (20, 40, 4, 3, 3), end=TIE))
+    if free["n_rigid"] != 6 or free["frequencies_Hz"][6] < 1000.0:
+        yield f"a tie of other nodes: {free['n_rigid']} rigid motions, then {free['frequencies_Hz'][6]} Hz"
+    sliding = modes(chladni, folder, "sliding.inp", body(*halves, end=equations.split("2\nLow_1, 2")[0] + held))
+    if sliding["n_rigid"] != 3:  # along y and z, about x
+        yield f"parts joined along x alone: {sliding['n_rigid']} rigid motions"
+    done = start(chladni, "modes", folder / "tie.inp.toml", "--output", folder, "--set", "modes.mesh_errors=true")
+    if done.returncode == 0:
+        yield "errors of a mesh with ties are told"
+
+
+def supports_turn(chladni, folder):
+    """Components in the axes of *TRANSFORM are those of the body that is turned by them."""
+    held = "*Boundary\nLow_0, 1\nHigh_0, 2, 3\n"
+    straight = modes(chladni, folder, "straight.inp", body((0, 40, 6, 2, 2), end=held))
+    axes = f"*Transform, nset=Low_0\n{math.cos(0.5)}, {math.sin(0.5)}, 0., {-math.sin(0.5)}, {math.cos(0.5)}, 0.\n"
+    turned = body((0, 40, 6, 2, 2), turn=0.5, end=axes + axes.replace("Low", "High") + held)
+    yield from same("turned supports", modes(chladni, folder, "turned.inp", turned), straight)
+
+
+def trusses_are_springs(chladni, folder):
+    """A SPRINGA along x with a mass, the same turned with the body, and a truss of E A / L in its place."""
+    c, s, held = math.cos(0.5), math.sin(0.5), "*Boundary\nLow_0, 1, 3\n9001, 1, 3\n"
+    spring = "*Element, type=SPRINGA, elset=S\n900, 55, 9001\n*Spring, elset=S\n\n105000.\n*Element, type=MASS, elset=M\n901, 55\n*Mass, elset=M\n7.85e-7\n"
+    truss = "*Element, type=T3D2, elset=T\n900, 55, 9001\n*Solid Section, elset=T, material=Steel\n10.\n"
+    straight = modes(chladni, folder, "spring.inp", body((0, 40, 6, 2, 2), end="*Node\n9001, 60., 0., 0.\n" + spring + held))
+    for name, kind in ("a turned spring", spring), ("a truss", truss):
+        text = body((0, 40, 6, 2, 2), turn=0.5, end=f"*Node\n9001, {60 * c!r}, {60 * s!r}, 0.\n" + kind + held)
+        yield from same(name, modes(chladni, folder, "skew.inp", text), straight)
+
+
+def rods_and_bushes_are_springs(chladni, folder):
+    """CROD, CONROD and CBUSH from the corner at x = 300 to another one beside scalar springs and masses."""
+    k, of_turn, mass = 2.1e5 * 7 / 200, 2.1e5 / 2.6 * 11 / 200, 0.5 * 7.85e-9 * 7 * 200  # from y = 0 to 200
+    masses = [f"CONM2,{72 + end},{node},,{mass!r}" for end, node in enumerate((13, 117))]
+    springs = [f"CELAS2,70,{k!r},13,2,117,2", f"CELAS2,71,{of_turn!r},13,5,117,5", *masses]
+    kinds = {"CELAS2": springs, "CROD": ["CROD,70,5,13,117", "PROD,5,1,7.,11."], "CONROD": ["CONROD,70,13,117,1,7.,11."],
+             "CBUSH": ["CBUSH,70,5,13,117,,,,0", f"PBUSH,5,K,,{k!r},,,{of_turn!r}", *masses],
+             "CBUSH along its nodes": ["CBUSH,70,5,13,117", f"PBUSH,5,K,{k!r},,,{of_turn!r}", *masses]}  # fmt: skip
+    found = {name: modes(chladni, folder, "rod.bdf", deck(1).replace("ENDDATA", "\n".join([*cards, "ENDDATA"]))) for name, cards in kinds.items()}
+    for name in list(kinds)[1:]:
+        yield from same(name, found[name], found["CELAS2"])
+
+
+def cards_are_equations(chladni, folder):
+    """RBE2 and RBE3 of some components, and the system CD of a support, beside MPCs written out."""
+    plain = deck(1)
+    tip, near = 13, 9  # at x = 300 and 200, y = 0
+    other = card("GRID", 900, "", 350.0, 40.0, 0.0) + "\n" + card("CONM2", 1, 900, "", 1e-4) + "\n"
+    grids = {n: (x, y) for n, x, y in grid(1)[0]}
+
+    def with_cards(*cards):
+        return plain.replace("ENDDATA", "\n".join([other, *cards, "ENDDATA"]))
+
+    def mpc(*terms):
+        """Two terms to a line."""
+        pairs = [terms[k : k + 2] for k in range(0, len(terms), 2)]
+        return "MPC,7," + ",\n,,".join(",".join(f"{node},{c},{float(a)!r}" for node, c, a in pair) for pair in pairs)
+
+    follows = []
+    for node in (tip, near):  # z of the node is that of the rigid body at 900, which has z, rx and ry
+        x, y = grids[node][0] - 350.0, grids[node][1] - 40.0
+        follows.append(mpc((node, 3, -1), (900, 3, 1), (900, 4, y), (900, 5, -x)))
+    rest = card("SPC1", 1, 126, 900)
+    rigid, written = with_cards(card("RBE2", 8, 900, 3, tip, near), rest), with_cards(*follows, rest)
+    yield from same("RBE2 of component 3", modes(chladni, folder, "rbe2.bdf", rigid), modes(chladni, folder, "mpc2.bdf", written))
+    mean = with_cards("RBE3,8,,900,1,1.,123,13,117\n,3.,123,9")
+    by_hand = with_cards(mean_equation(grids, {13: 1.0, 117: 1.0, 9: 3.0}, (350.0, 40.0), mpc))
+    yield from same("RBE3 of weights", modes(chladni, folder, "rbe3.bdf", mean), modes(chladni, folder, "mpc3.bdf", by_hand))
+
+
+def mean_equation(grids, weights, place, mpc):
+    """x of a node at a place that moves as the mean does in the plane."""
+    total = sum(weights.values())
+    c = [sum(w * grids[n][i] for n, w in weights.items()) / total for i in (0, 1)]
+    J = sum(w * ((grids[n][0] - c[0]) ** 2 + (grids[n][1] - c[1]) ** 2) for n, w in weights.items())
+    terms = [(900, 1, -1.0)]
+    for n, w in weights.items():  # x = mean x - theta (y - c_y), theta = sum w (r_x v - r_y u) / J
+        r = [grids[n][i] - c[i] for i in (0, 1)]
+        terms += [(n, 1, w / total + w * r[1] * (place[1] - c[1]) / J), (n, 2, -w * r[0] * (place[1] - c[1]) / J)]
+    return mpc(*terms)
+
+
 def main(programs):
     chladni = Path(programs) / "chladni"
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         failures = [*of_order(chladni, folder, 1), *of_order(chladni, folder, 2),
-                    *units_are_asked_for(chladni, folder), *bad_decks_are_refused(chladni, folder)]  # fmt: skip
+                    *units_are_asked_for(chladni, folder), *bad_decks_are_refused(chladni, folder),
+                    *parts_are_joined(chladni, folder), *supports_turn(chladni, folder),
+                    *trusses_are_springs(chladni, folder), *rods_and_bushes_are_springs(chladni, folder), *cards_are_equations(chladni, folder)]  # fmt: skip
     print("\n".join(f"FAILED: {line}" for line in failures))
     sys.exit(bool(failures))
 

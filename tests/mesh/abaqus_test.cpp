@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "mesh/decks/abaqus.hpp"
+#include "mesh/own_readers.hpp"
 #include "mesh_file_test.hpp"
 
 namespace chladni::mesh {
@@ -307,11 +308,95 @@ TEST(AbaqusSolids, FollowAKinematicCouplingOfThreeComponents)
   const Declarations declared = declared_by_abaqus(cube + solid_section + coupling, 1.0);
   ASSERT_EQ(declared.couplings.size(), 1U);
   EXPECT_EQ(declared.couplings[0].kind, CouplingOfDeck::rigid);
-  expect_words(error_in_abaqus(
-                   abaqus_plate +
-                   "*Node, nset=Ref\n9, 1., 1., 5.\n*Surface, name=Top\nPlate, SPOS\n"
-                   "*Coupling, constraint name=C, ref node=Ref, surface=Top\n*Kinematic\n1, 3\n"),
-               {"*KINEMATIC", "not all components"});
+  const std::string of_shells =
+      abaqus_plate + "*Node, nset=Ref\n9, 1., 1., 5.\n*Surface, name=Top\nPlate, SPOS\n" +
+      "*Coupling, constraint name=C, ref node=Ref, surface=Top\n*Kinematic\n1, 3\n";
+  EXPECT_TRUE(declared_by_abaqus(of_shells, 1.0).couplings.empty());
+  EXPECT_EQ(deck_of_abaqus(of_shells).equations.size(), 12U) << "three of each of four nodes";
+}
+
+TEST(AbaqusDeck, HasEquationsOfNodesAndSets)
+{
+  const Deck deck = deck_of_abaqus(abaqus_plate + "*Nset, nset=A\n1, 2\n*Nset, nset=B\n3, 4\n" +
+                                   "*Equation\n3\nA, 1, 1., B, 2, -0.5,\n1, 6, 2.\n" +
+                                   "2\n1, 11, 1., 2, 11, -1.\n");
+  ASSERT_EQ(deck.equations.size(), 2U) << "one for each node of the sets, none of temperatures";
+  const auto& terms = deck.equations[1].terms;
+  ASSERT_EQ(terms.size(), 3U);
+  EXPECT_EQ(terms[0].node, 2);
+  EXPECT_EQ(terms[1].node, 4);
+  EXPECT_EQ(terms[1].component, 1);
+  EXPECT_EQ(terms[1].factor, -0.5);
+  EXPECT_EQ(terms[2].node, 1);
+  Mesh mesh = mesh_of(deck, {});
+  scale(mesh, 1e-3);
+  EXPECT_DOUBLE_EQ(mesh.equations.at(0).terms[2].factor, 2e-3) << "of a rotation, beside metres";
+}
+
+TEST(AbaqusDeclarations, HaveMassesAndSpringsToNodesAndTheGround)
+{
+  const std::string points =
+      "*Node\n8, 2., 0., -1.\n9, 2., 3., 0.\n*Element, type=MASS, elset=M\n10, 3\n*Mass, elset=M\n"
+      "2e-3\n*Element, type=SPRINGA, elset=S\n11, 8, 2\n*Spring, elset=S\n\n5., 1.\n"
+      "*Element, type=SPRING2, elset=T\n12, 1, 2\n*Spring, elset=T\n6, 6\n7.\n*Boundary\n8, 1, 3\n"
+      "*Element, type=DASHPOTA, elset=D\n13, 1, 3\n*Dashpot, elset=D\n\n1.\n";
+  const Declarations declared = declared_by_abaqus(abaqus_plate + points, 1e-3);
+  ASSERT_EQ(declared.masses.size(), 1U);
+  EXPECT_EQ(declared.masses[0].at, "mass_10");
+  EXPECT_DOUBLE_EQ(declared.masses[0].mass, 2.0) << "t in the deck";
+  ASSERT_EQ(declared.springs.size(), 2U);
+  EXPECT_EQ(declared.springs[0].at, "spring_11_2") << "node 8 belongs to no element and is held";
+  EXPECT_FALSE(declared.springs[0].to);
+  EXPECT_DOUBLE_EQ(declared.springs[0].stiffness[2], 5e3);
+  EXPECT_EQ(declared.springs[1].to, "spring_12_2");
+  EXPECT_DOUBLE_EQ(declared.springs[1].stiffness[5], 7e-3);
+}
+
+/// Of nodes 1 (0, 0) and 3 (2, 1): along (2, 1) / sqrt(5).
+TEST(AbaqusDeck, HasTheElongationOfASkewSpringAsAnEquation)
+{
+  const Deck deck = deck_of_abaqus(abaqus_plate + "*Element, type=SPRINGA, elset=S\n11, 1, 3\n" +
+                                   "*Spring, elset=S\n\n5.\n");
+  ASSERT_EQ(deck.equations.size(), 2U)
+      << "elongation, and a turn about the line, which both nodes have";
+  const auto& terms = deck.equations[0].terms;
+  ASSERT_EQ(terms.size(), 5U);
+  EXPECT_EQ(terms[0].node, 5) << "beyond the nodes of the deck";
+  EXPECT_NEAR(terms[1].factor, 2.0 / std::sqrt(5.0), 1e-15);
+  EXPECT_NEAR(terms[3].factor, -2.0 / std::sqrt(5.0), 1e-15);
+}
+
+TEST(AbaqusDeclarations, HaveNodalThicknessesAsATable)
+{
+  const Declarations declared =
+      declared_by_abaqus(abaqus_plate + "*Nodal thickness\nAll, 2.\n2, 3.\n3, 3.\n", 1e-3);
+  ASSERT_TRUE(declared.shells.at(0).table);
+  EXPECT_EQ(declared.shells[0].table->over, "x");
+  EXPECT_EQ(declared.shells[0].table->values, (std::vector<double>{2e-3, 3e-3}));
+  const Declarations by_radius =
+      declared_by_abaqus(abaqus_plate + "*Nodal thickness\nAll, 2.\n2, 3.\n", 1e-3);
+  EXPECT_EQ(by_radius.shells.at(0).table->over, "radius") << "of four nodes with four radii";
+}
+
+/// By Bredt: J = 4 A^2 / sum l / t.
+TEST(AbaqusDeclarations, HaveBoxes)
+{
+  const Declarations declared = declared_by_abaqus(
+      abaqus_plate + "*Element, type=B31, elset=Rib\n7, 1, 2\n" +
+          "*Beam General Section, elset=Rib, material=Steel, section=BOX\n5., 3., .2, .1, .2, .1\n",
+      1.0);
+  EXPECT_NEAR(declared.beams.at(0).area, 15.0 - 4.6 * 2.8, 1e-12);
+  EXPECT_NEAR(declared.beams[0].J,
+              4.0 * std::pow(4.8 * 2.9, 2) / (2.0 * 4.8 / 0.1 + 2.0 * 2.9 / 0.2), 1e-9);
+}
+
+TEST(AbaqusDeclarations, HaveOnlyTheNewSupportsOfTheFirstStep)
+{
+  const Declarations declared = declared_by_abaqus(
+      abaqus_plate + "*Boundary\n1, 1\n*Step\n*Boundary, op=NEW\n2, 1, 1, .5\n*End Step\n", 1.0);
+  ASSERT_EQ(declared.supports.size(), 1U);
+  EXPECT_EQ(declared.supports[0].group, "boundary_2");
+  expect_words(declared.notes.at(0), {"prescribes a displacement", "held at zero"});
 }
 
 TEST(AbaqusSolids, AreLeftOutWhereOnlyShellsHaveSections)
@@ -403,7 +488,7 @@ const std::vector<Refusal> refused_solids{
     {cube + "*Element, type=C3D8\n2, 4, 3, 31, 32, 8, 7, 33, 34\n*Node\n31, 2., 4., 0.\n"
             "32, 0., 4., 0.\n33, 2., 4., 2.\n34, 0., 4., 2.\n",
      {"line 24: element 1 has a node between 3 and 4", "line 26: element 2 has none"}},
-    {tetrahedron + "*Initial Conditions, type=Stress\n1, 20.\n", {"line 24", "not known"}},
+    {tetrahedron + "*Initial Conditions, type=Stress\n1, 20.\n", {"line 24", "prestresses"}},
     {cube + "*Element, type=S4, elset=Plate\n7, 1, 2, 3, 4\n" + abaqus_steel +
          "*Solid Section, elset=Plate, material=Steel\n",
      {"*SOLID SECTION", "element 7 of the type S4"}}};
@@ -425,13 +510,11 @@ TEST_P(RefusedKeyword, IsNamedWithItsLine)
 }
 
 const std::vector<Refusal> refused_keywords{
-    {abaqus_plate + "*Spring, elset=a\n", {"line 15", "*SPRING", "not known"}},
+    {abaqus_plate + "*Spring, elset=a\n", {"line 15", "*SPRING", "no element set \"A\""}},
     {abaqus_plate + "*Part, name=P\n", {"*PART", "END PART"}},
     {abaqus_plate + "*Assembly, name=A\n*Instance, name=I, part=P\n*End Instance\n",
      {"line 16", "*INSTANCE", "no part \"P\""}},
     {abaqus_plate + "*Include, input=more.inp\n", {"line 15", "more.inp"}},
-    {abaqus_plate + "*Boundary\n1, 1\n*Step\n*Boundary, op=NEW\n2, 1\n*End Step\n",
-     {"line 18", "OP = NEW"}},
     {abaqus_plate + "*Surface, name=S\n17, SPOS\n", {"line 16", "no element 17"}},
     {abaqus_plate + "*Surface, name=S\n1, S3\n", {"line 16", "element 1 has no face S3"}},
     {abaqus_plate + "*Surface, name=S\n1, T3\n", {"line 16", "SPOS or SNEG"}},
@@ -449,7 +532,6 @@ const std::vector<Refusal> refused_keywords{
     {abaqus_plate + "*Nset, nset=N\nAbsent\n", {"line 16", "no set \"ABSENT\""}},
     {abaqus_plate + "*Nset, nset=N, generate\n5, 1\n", {"line 16", "no range"}},
     {abaqus_plate + "*Boundary\nAbsent, 1\n", {"no node set \"ABSENT\""}},
-    {abaqus_plate + "*Boundary\n1, 1, 1, 0.5\n", {"line 16", "prescribes"}},
     {abaqus_plate + "*Boundary\n1, 5, 9\n", {"no components"}},
     {abaqus_plate + "*Boundary, type=velocity\n1, 1\n", {"*BOUNDARY", "TYPE"}},
     {abaqus_plate + "*Shell Section, elset=Plate, material=Steel\n2.\n",
@@ -479,7 +561,12 @@ const std::vector<Refusal> refused_keywords{
     {abaqus_plate + "*MPC\nSLIDER, 1, 2, 3\n", {"*MPC", "SLIDER", "BEAM and TIE"}},
     {abaqus_plate + "*MPC\nTIE, 1, 2\n", {"*MPC", "1 and 2 are apart"}},
     {abaqus_plate + "*MPC\nBEAM, 1\n", {"*MPC", "one node"}},
-    {abaqus_plate + "*Tie, name=T\nA, B\n", {"*TIE", "common nodes"}},
+    {abaqus_plate + "*Tie, name=T\nA, B\n", {"*TIE", "no surface \"A\""}},
+    {abaqus_plate + "*Tie, name=T, cyclic symmetry\nA, B\n", {"*TIE", "sectors = N"}},
+    {abaqus_plate + "*Equation\n2\n1, 1, 1.\n", {"line 16", "*EQUATION", "3 numbers"}},
+    {abaqus_plate + "*Equation\n2\n1, 7, 1., 2, 1, 1.\n", {"*EQUATION", "7 is no component"}},
+    {abaqus_plate + "*Transform, nset=All, type=S\n0., 0., 0., 1., 0., 0.\n",
+     {"*TRANSFORM", "R and C"}},
     {"1, 2\n*Node\n", {"line 1", "before the first keyword"}}};
 
 INSTANTIATE_TEST_SUITE_P(Abaqus, RefusedKeyword, ::testing::ValuesIn(refused_keywords));

@@ -326,12 +326,9 @@ TEST(NastranSolids, FollowARigidElementOfThreeComponents)
   const std::string text = nastran_tetrahedron + "CTETRA,1,8,1,2,3,4\nPSOLID,8,9\n" +
                            "MAT1,9,2.1+5,,.3,7.85-9\nGRID,20,,5.,0.,0.\nRBE2,5,20,123,1,2,3\n";
   ASSERT_EQ(declared_by_nastran(text, 1e-3).couplings.size(), 1U);
-  try {
-    declared_by_nastran(text + "CTRIA3,2,7,1,2,3\nPSHELL,7,9,1.,9,,9\n", 1e-3);
-    FAIL() << "the nodes of shells turn";
-  } catch (const Error& error) {
-    expect_words(error.what(), {"RBE2 5", "nodes of solids alone"});
-  }
+  const Deck with_shells = deck_of_nastran(text + "CTRIA3,2,7,1,2,3\nPSHELL,7,9,1.,9,,9\n");
+  EXPECT_TRUE(with_shells.couplings.empty()) << "the nodes of shells turn";
+  EXPECT_EQ(with_shells.equations.size(), 9U);
 }
 
 TEST(NastranSolids, BesideShellsAreTakenByTheirSection)
@@ -420,6 +417,66 @@ TEST(NastranDeclarations, HaveSixEquationsOfTwoTermsAsALink)
   EXPECT_EQ(declared.couplings[0].to, "leader_4");
   EXPECT_NE(declared.notes.at(0).find("MPC of the set 5 are left out"), std::string::npos)
       << declared.notes[0];
+}
+
+TEST(NastranDeck, HasOtherEquationsRigidBodiesAndMeansAsEquations)
+{
+  const Deck deck = deck_of_nastran(
+      nastran_plate + "MPC,4,1,1,1.,2,2,-2.,\n,,3,6,.5\nGRID,12,,0.,0.,5.\nRBE2,5,12,3,1\n" +
+      "RBE3,6,,12,3,1.,123,1,2\n,2.,123,3\n");
+  ASSERT_EQ(deck.equations.size(), 3U);
+  const auto& [entry, terms] = deck.equations[2];
+  EXPECT_EQ(entry, "line 8: MPC 4");
+  ASSERT_EQ(terms.size(), 3U);
+  EXPECT_EQ(terms[2].node, 3);
+  EXPECT_EQ(terms[2].component, 5);
+  EXPECT_EQ(terms[2].factor, 0.5);
+  ASSERT_EQ(deck.equations[0].terms.size(), 2U) << "above each other: no arm for z";
+  double sum = 0.0;
+  for (const DeckEquation::Term& term : deck.equations[1].terms)
+    if (term.component == 2) sum += term.factor;
+  EXPECT_NEAR(sum, 0.0, 1e-15) << "a translation moves the mean as the nodes";
+}
+
+/// 30 degrees about z.
+TEST(NastranDeck, HoldsComponentsInTheSystemOfANodeByAnEquation)
+{
+  const std::string text =
+      "CORD2R,5,,0.,0.,0.,0.,0.,1.\n,.8660254,.5,0.\n" + nastran_steel +
+      "GRID,1,,0.,0.,0.,5\nGRID,2,,2.,0.,0.\nGRID,3,,2.,1.,0.\nCTRIA3,1,7,1,2,3\n"
+      "PSHELL,7,9,2.,9,,9\nSPC1,6,1,1,2\nSPC1,6,456,1\n";
+  const Deck deck = deck_of_nastran(text);
+  ASSERT_EQ(deck.equations.size(), 1U);
+  ASSERT_EQ(deck.equations[0].terms.size(), 2U);
+  EXPECT_NEAR(deck.equations[0].terms[0].factor, std::sqrt(0.75), 1e-7);
+  EXPECT_NEAR(deck.equations[0].terms[1].factor, 0.5, 1e-7);
+  const Declarations declared = declared_by_nastran(text, 1.0);
+  ASSERT_EQ(declared.supports.size(), 2U);
+  EXPECT_EQ(declared.supports[0].group, "spc_6_1");
+  EXPECT_EQ(find_group(mesh_of(deck, {}), "spc_6_1").nodes, std::vector<int>{1});
+  EXPECT_EQ(declared.supports[1].group, "spc_6_456") << "of all rotations axes do not matter";
+}
+
+TEST(NastranDeclarations, HoldWhatACardMovesAtZero)
+{
+  const Declarations declared = declared_by_nastran(nastran_plate + "SPC,6,1,3,.5\n", 1.0);
+  ASSERT_EQ(declared.supports.size(), 1U);
+  EXPECT_EQ(declared.supports[0].components, std::vector<int>{2});
+  expect_words(declared.notes.at(0), {"SPC 6", "held at zero"});
+}
+
+TEST(NastranDeclarations, PartBarsOfAPropertyByTheirVectors)
+{
+  const std::string bars = nastran_plate +
+                           "CBAR,3,5,1,2,0.,0.,1.\nCBAR,4,5,2,3,1.,0.,0.\n"
+                           "CBAR,6,5,3,4,0.,0.,1.\n";
+  const Declarations declared = declared_by_nastran(bars + "PBAR,5,9,1.,1.,2.,1.\n", 1.0);
+  ASSERT_EQ(declared.beams.size(), 2U);
+  EXPECT_EQ(declared.beams[0].group, "pbar_5");
+  EXPECT_EQ(declared.beams[0].orientation, (std::array<double, 3>{0.0, 0.0, 1.0}));
+  EXPECT_EQ(declared.beams[1].group, "pbar_5_2");
+  EXPECT_EQ(declared.beams[1].orientation, (std::array<double, 3>{1.0, 0.0, 0.0}));
+  EXPECT_EQ(declared_by_nastran(bars + "PBAR,5,9,1.,1.,1.,1.\n", 1.0).beams.size(), 1U);
 }
 
 TEST(NastranDeclarations, HoldTheSetsThatCaseControlChooses)
@@ -613,24 +670,24 @@ const std::vector<Refusal> refused_cards{
      {"line 8", "element 2", "between", "element 1 of order 1"}},
     {nastran_plate + "CBAR,2,5,1,2,0.,0.,1.\n,456\n", {"CBAR 2", "released"}},
     {nastran_plate + "SPC1,6,128,1\n", {"SPC1 6", "no components"}},
-    {nastran_plate + "SPC,6,1,3,.5\n", {"SPC 6", "prescribes"}},
     {nastran_plate + "SPC1,6,3,1\nSPC1,7,3,2\n", {"SPC1 7", "second set"}},
     {nastran_plate + "SET1,6,9,THRU,5\n", {"SET1 6", "no range"}},
-    {nastran_plate + "RBE2,6,9,123,1,2\n", {"RBE2 6", "123456"}},
+    {nastran_plate + "RBE2,6,9,123,1,2\n", {"RBE2 6", "no node 9"}},
     {nastran_plate + "RBE2,6,9,123456,1,2\n", {"RBE2 6", "no node 9"}},
     {nastran_plate + "RBE3,6,,4,123456,1.,123,1,2\n", {"RBE3 6", "node 4"}},
     {nastran_plate + "RBAR,6,1,2,123,456\n", {"RBAR 6", "not wholly rigid"}},
-    {nastran_plate + "MPC,6,1,1,1.,2,1,-1.\n", {"MPC 6", "1 of 6 components"}},
-    {nastran_plate + "MPC,6,1,1,1.,2,1,-1.\n,,3,1,1.\n", {"MPC 6", "two terms"}},
-    {nastran_plate + "MPC,6,1,1,1.,2,1,-2.\n", {"MPC 6", "coefficients"}},
-    {nastran_plate + "MPC,6,1,1,1.,2,2,-1.\n", {"MPC 6", "two components"}},
+    {nastran_plate + "MPC,6,1,1,1.,9,1,-1.\n", {"MPC 6", "no GRID 9"}},
+    {nastran_plate + "MPC,6,1,12,1.,2,1,-1.\n", {"MPC 6", "one component"}},
+    {nastran_plate + "MPC,6\n", {"MPC 6", "no terms"}},
     {"SPC = 5\nCEND\nBEGIN BULK\n" + nastran_plate + "SPC1,6,3,1\n",
      {"line 1", "CASE SPC", "no SPC 5"}},
     {"CEND\nSPC = 5\nSPC = 6\nBEGIN BULK\n" + nastran_plate, {"line 3", "line 2 chooses SPC = 5"}},
     {nastran_plate + "CBAR,3,5,1,2,0.,0.,1.\nPBAR,5,9,1.,1.,2.,1.\n\n,\n,1.,0.\n",
      {"PBAR 5", "one of its two planes"}},
     {nastran_plate + "GRDSET,,,,,,,1\nGRDSET,,,,,,,2\n", {"GRDSET", "one already"}},
-    {nastran_plate + "RBE3,6,,9,123456,1.,123,1,2\n,2.,123,3\n", {"RBE3 6", "several weights"}},
+    {nastran_plate + "RBE3,6,,9,123456,1.,123,1,2\n,2.,123456,3\n", {"RBE3 6", "other components"}},
+    {nastran_plate + "GRID,9,,0.,0.,1.\nRBE3,6,,9,123456,1.,123,1\n,2.,123,2\n",
+     {"RBE3 6", "on one line"}},
     {nastran_plate + "PARAM,WTMASS,0.\n", {"PARAM WTMASS", "positive factor"}},
     {nastran_plate + "PARAM,WTMASS,2.\nPARAM,WTMASS,3.\n", {"line 9", "line 8 says another"}},
     {nastran_plate + "PCOMP,8,,,,,,,,\n,9,1.,0.\n", {"PCOMP 8", "laminate", "mesh.matrices"}},
@@ -638,7 +695,7 @@ const std::vector<Refusal> refused_cards{
     {nastran_plate + "CORD1R,3,1,2,9\n", {"CORD1R 3", "no GRID 9"}},
     {nastran_plate + "CORD1R,3,1,2,2\n", {"CORD1R 3", "on one line"}},
     {nastran_plate + "GRID,9,3,1.,0.,0.\nCORD1R,3,1,2,9\n", {"CORD1R 3", "refers to itself"}},
-    {nastran_plate + "RBE3,6,,9,12,1.,123,1,2\n", {"RBE3 6", "123456 nor 123"}},
+    {nastran_plate + "RBE3,6,,9,12,1.,123,1,2\n,3\n", {"RBE3 6", "no node 9"}},
     {nastran_square + nastran_steel + "PSHELL,7,9,2.\n", {"PSHELL 7", "MID2"}},
     {nastran_square + nastran_steel + "PSHELL,7,9,2.,9,.5,9\n", {"PSHELL 7", "12I/T**3"}},
     {nastran_square + nastran_steel + "PSHELL,7,9,2.,9,,9,,1.-9\n", {"PSHELL 7", "NSM"}},

@@ -66,6 +66,7 @@ TEST(PackedMesh, IsTheMesh)
 {
   Mesh mesh = packed_disc();
   mesh.notes = {"a note"};
+  mesh.equations = {{"line 7", {{0, 2, 1.0}, {1, 5, -0.5}}}};
   const Mesh back = unpacked(packed(mesh));
   EXPECT_EQ(checksum(back), checksum(mesh));
   EXPECT_EQ(back.node_numbers, mesh.node_numbers);
@@ -95,6 +96,15 @@ TEST(PackedMesh, IsRefusedWhenItsPartsDoNotFit)
       [](Mesh& m) { m.positions[3][1] = std::numeric_limits<double>::infinity(); },
       [](Mesh& m) { m.groups[0].nodes[0] = m.n_nodes(); },
       [](Mesh& m) { m.groups[0].dimension = 4; },
+      [](Mesh& m) {
+        m.equations = {{"line 7", {}}};
+      },
+      [](Mesh& m) {
+        m.equations = {{"line 7", {{m.n_nodes(), 0, 1.0}}}};
+      },
+      [](Mesh& m) {
+        m.equations = {{"line 7", {{0, 6, 1.0}}}};
+      },
   };
   for (std::size_t i = 0; i < changes.size(); ++i)
     EXPECT_THROW(unpacked(packed(with(changes[i]))), Error) << i;

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "coupled_models.hpp"
 #include "plate/assembly/recovery.hpp"
+#include "plate/dofs/free_motions.hpp"
 #include "plate/dofs/point_elements.hpp"
 
 namespace chladni::plate {
@@ -50,6 +53,63 @@ TEST(Links, NameBothCouplingsOfAConflict)
   expect_words(error_of(mesh, {link("right", "centre")}), {"both nearest", "pair"});
   expect_words(error_of(mesh, {link("corner", "top")}), {"belongs to both groups"});
   expect_words(error_of(mesh, {link("right", "rim")}), {"rim", "bottom"});
+}
+
+double part(const DofMap& map, int node, int component, int of_node, int of_component)
+{
+  const int number = map.number(of_node);
+  double sum = 0.0;
+  for (const MotionTerm& term : map.motion(node))
+    if (term.number == number) sum += term.T(component, of_component);
+  return sum;
+}
+
+/// u_x(0) = 2 u_y(1), u_y(1) = 3 theta_z(2), and what follows from both.
+TEST(Equations, AreSolvedThroughEachOtherAndHoldOnlyOnce)
+{
+  mesh::Mesh mesh = plate();
+  mesh.equations = {{"line 1", {{0, 0, 1.0}, {1, 1, -2.0}}},
+                    {"line 2", {{1, 1, 0.5}, {2, 5, -1.5}}},
+                    {"line 3", {{0, 0, 1.0}, {2, 5, -6.0}}}};
+  const DofMap map = map_of(mesh, {});
+  EXPECT_NEAR(part(map, 0, 0, 2, 5), 6.0, 1e-14);
+  EXPECT_NEAR(part(map, 1, 1, 2, 5), 3.0, 1e-14);
+  EXPECT_EQ(part(map, 0, 0, 1, 1), 0.0);
+  EXPECT_EQ(part(map, 0, 1, 0, 1), 1.0) << "other components stay";
+  const std::vector<int> unused = map.unused_dofs();
+  EXPECT_EQ(std::set<int>(unused.begin(), unused.end()),
+            (std::set{6 * map.number(0), 6 * map.number(1) + 1}));
+  EXPECT_FALSE(map.dof(0, 0));
+}
+
+/// A support of a component that an equation is solved for.
+TEST(Equations, AreHeldWhereWhatTheyAreSolvedByIs)
+{
+  mesh::Mesh mesh = plate();
+  mesh.equations = {{"line 1", {{0, 0, 1.0}, {1, 0, -1.0}}}};
+  mesh.groups.push_back({.name = "follows", .dimension = 0, .nodes = {0}});
+  mesh.groups.push_back({.name = "leads", .dimension = 0, .nodes = {1}});
+  const DofMap map = map_of(mesh, {});
+  const std::vector<Support> one{{.group = "follows", .components = {0}}};
+  EXPECT_THROW(held_dofs(mesh, map, one), Error);
+  const std::vector<Support> both{one[0], {.group = "leads", .components = {0}}};
+  EXPECT_EQ(held_dofs(mesh, map, both), (std::vector<int>{*map.dof(1, 0)}));
+}
+
+/// A node of no element has the components of its equations alone.
+TEST(Equations, MayHaveANodeOfTheirOwn)
+{
+  mesh::Mesh mesh = plate();
+  const int node = mesh.n_nodes();
+  mesh.positions.push_back({9.0, 9.0, 9.0});
+  mesh.node_numbers.push_back(999);
+  mesh.equations = {{"line 1", {{0, 0, 1.0}, {node, 0, -1.0}}}};
+  const DofMap map = map_of(mesh, {});
+  EXPECT_EQ(part(map, 0, 0, node, 0), 1.0);
+  EXPECT_EQ(part(map, node, 0, node, 0), 1.0);
+  EXPECT_EQ(part(map, node, 1, node, 1), 0.0);
+  EXPECT_EQ(map.unused_dofs().size(), 1U + 5U);
+  EXPECT_NO_THROW(check_stiffness_of_all_nodes(mesh, map));
 }
 
 TEST(PointElements, ActOnTheMotionOfAverages)
