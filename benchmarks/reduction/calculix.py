@@ -114,7 +114,7 @@ def by_calculix(folder, text, modes, most_s=None):
 
 def version():
     said = subprocess.run(["ccx", "-v"], capture_output=True, text=True, check=False).stdout.strip()
-    return said.splitlines()[-1] if said else "ccx"
+    return said.splitlines()[-1].replace("This is Version", "CalculiX") if said else "CalculiX"
 
 
 def by_chladni(folder, command, scene):
