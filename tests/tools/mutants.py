@@ -37,7 +37,7 @@ ROOMS = {
     "reduce/cyclic": (["cyclic"], ["cyclic_test"]),
     "mesh": (["mesh"], ["mesh_test"]),
     "plate/elements": (["elements"], ["elements_test"]),
-    "plate": (["plate"], ["assemble_test"]),
+    "plate": (["plate"], ["assemble_test", "obstacle_course_test"]),
     "files": (["files"], ["files_test"]),
     "mbs_export": (["mbs_export"], ["mbs_export_test"]),
     "fmu": (["fmu"], ["fmu_test"]),
