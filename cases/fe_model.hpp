@@ -71,6 +71,9 @@ struct SceneReduction {
 /// The sections, masses and springs of the scene's body; refers to the scene.
 plate::Structure structure_of(const scene::Scene& scene);
 
+/// @throws chladni::Error naming a section whose material has no density, for what needs mass
+void expect_mass(const scene::Scene& scene);
+
 /// A matrix of the FE model in the coordinates of the file.
 /// @note   Collective.
 Eigen::MatrixXd projected(const SceneReduction& reduced, Mat A,

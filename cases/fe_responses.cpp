@@ -186,6 +186,7 @@ FrequencyResponses fe_responses(const scene::Scene& scene, const SupportedModel&
                                 const linear::SolverOptions& solver, Phases& phases)
 {
   phases.begin("frequencies");
+  expect_mass(scene);
   refuse_free_motion(scene, model);
   try {
     FrequencyResponses found = answered(scene, model, solver);

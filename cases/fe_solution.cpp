@@ -52,6 +52,7 @@ SupportedModel assemble_supported(const scene::Scene& scene, mesh::Mesh mesh)
 SupportedModel supported_model(const scene::Scene& scene, const linear::SolverOptions& solver,
                                Phases& phases)
 {
+  if (scene.accuracy) expect_mass(scene);
   const scene::Scene meshed =
       scene.accuracy ? chosen_mesh(scene, scene.supports, solver, phases).scene : scene;
   phases.begin("mesh");
@@ -225,6 +226,7 @@ Eigen::VectorXd angular_frequencies(const std::vector<double>& lambda, int n_rig
 SceneModes scene_modes(const scene::Scene& scene, const SupportedModel& model,
                        const linear::SolverOptions& solver, Phases& phases)
 {
+  expect_mass(scene);
   const scene::ModesOptions asked = scene.natural_modes.value_or(scene::ModesOptions{});
   const int n_rigid = plate::n_free_motions(model.free);
   phases.begin("modes");

@@ -33,6 +33,7 @@ namespace {
 
 FeModel assemble_scene(const scene::Scene& scene, mesh::Mesh mesh)
 {
+  expect_mass(scene);
   plate::DofMap dofs = plate::make_dof_map(
       mesh,
       {.couplings = scene.couplings, .components = scene.components, .rings = scene.ring_harmonics},
@@ -187,6 +188,22 @@ plate::Structure structure_of(const scene::Scene& scene)
           .solids = scene.solids,
           .masses = scene.masses,
           .springs = scene.springs};
+}
+
+void expect_mass(const scene::Scene& scene)
+{
+  const auto check = [&](const auto& sections) {
+    for (const auto& section : sections) {
+      if (section.material.density > 0.0) continue;
+      throw Error(
+          fmt::format("{}: section of \"{}\": its material has no density, as static loads need "
+                      "none; vibrations do: write it into [material]",
+                      scene.path, section.group));
+    }
+  };
+  check(scene.sections);
+  check(scene.beams);
+  check(scene.solids);
 }
 
 MatrixXd projected(const SceneReduction& reduced, Mat A, linear::FormSymmetry symmetry)

@@ -222,6 +222,7 @@ void add_axis(SectorModel& model)
 
 SectorModel sector_model(const scene::Scene& scene, mesh::Mesh mesh)
 {
+  expect_mass(scene);
   refuse_unsupported(scene);
   const std::vector<int> owners(std::size_t(mesh.n_nodes()), 0);
   plate::DofMap dofs = plate::make_dof_map(
