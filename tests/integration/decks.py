@@ -80,6 +80,11 @@ def bad_decks_are_refused(chladni, folder):
     done = start(chladni, "import", folder / "thin.bdf", "--length-unit", "mm", "--output", folder / "thin.toml")
     if done.returncode != 1 or "poisson" not in done.stderr or (folder / "thin.toml").exists():
         yield f"a material that is none: {done.stderr}"
+    (folder / "light.bdf").write_text(deck(1).replace(",7.85-9", ""))
+    run(chladni, "import", folder / "light.bdf", "--length-unit", "mm", "--output", folder / "light.toml")
+    done = start(chladni, "modes", folder / "light.toml", "--output", folder)
+    if done.returncode == 0 or "no density" not in done.stderr:
+        yield f"modes of a body without mass: {done.stderr}"
 
 
 def body(*parts, turn=0.0, end=""):
@@ -137,9 +142,11 @@ def parts_are_joined(chladni, folder):
     sliding = modes(chladni, folder, "sliding.inp", body(*halves, end=equations.split("2\nLow_1, 2")[0] + held))
     if sliding["n_rigid"] != 3:  # along y and z, about x
         yield f"parts joined along x alone: {sliding['n_rigid']} rigid motions"
-    done = start(chladni, "modes", folder / "tie.inp.toml", "--output", folder, "--set", "modes.mesh_errors=true")
-    if done.returncode == 0:
-        yield "errors of a mesh with ties are told"
+    finer = folder / "finer.toml"
+    finer.write_text((folder / "tie.inp.toml").read_text().replace("count = 10", "count = 10\nmesh_errors = true"))
+    done = start(chladni, "modes", finer, "--output", folder / "finer")
+    if done.returncode == 0 or "equations and ties" not in done.stderr:
+        yield f"errors of a mesh with ties are told: {done.stderr}"
 
 
 def supports_turn(chladni, folder):
@@ -178,8 +185,9 @@ def rods_and_bushes_are_springs(chladni, folder):
 def cards_are_equations(chladni, folder):
     """RBE2 and RBE3 of some components, and the system CD of a support, beside MPCs written out."""
     plain = deck(1)
-    tip, near = 13, 9  # at x = 300 and 200, y = 0
-    other = card("GRID", 900, "", 350.0, 40.0, 0.0) + "\n" + card("CONM2", 1, 900, "", 1e-4) + "\n"
+    corners = (13, 9, 117)  # at x = 300 and 200 on y = 0, and at x = 300, y = 200
+    at = (350.0, 70.0)  # the mass stands off, so that the signs of rotations matter
+    other = card("GRID", 900, "", *at, 0.0) + "\n" + card("CONM2", 1, 900, "", 1e-4, 20.0, 30.0)
     grids = {n: (x, y) for n, x, y in grid(1)[0]}
 
     def with_cards(*cards):
@@ -191,14 +199,14 @@ def cards_are_equations(chladni, folder):
         return "MPC,7," + ",\n,,".join(",".join(f"{node},{c},{float(a)!r}" for node, c, a in pair) for pair in pairs)
 
     follows = []
-    for node in (tip, near):  # z of the node is that of the rigid body at 900, which has z, rx and ry
-        x, y = grids[node][0] - 350.0, grids[node][1] - 40.0
+    for node in corners:  # z of the node is that of the rigid body at 900, which has z, rx and ry
+        x, y = grids[node][0] - at[0], grids[node][1] - at[1]
         follows.append(mpc((node, 3, -1), (900, 3, 1), (900, 4, y), (900, 5, -x)))
     rest = card("SPC1", 1, 126, 900)
-    rigid, written = with_cards(card("RBE2", 8, 900, 3, tip, near), rest), with_cards(*follows, rest)
+    rigid, written = with_cards(card("RBE2", 8, 900, 3, *corners), rest), with_cards(*follows, rest)
     yield from same("RBE2 of component 3", modes(chladni, folder, "rbe2.bdf", rigid), modes(chladni, folder, "mpc2.bdf", written))
     mean = with_cards("RBE3,8,,900,1,1.,123,13,117\n,3.,123,9")
-    by_hand = with_cards(mean_equation(grids, {13: 1.0, 117: 1.0, 9: 3.0}, (350.0, 40.0), mpc))
+    by_hand = with_cards(mean_equation(grids, {13: 1.0, 117: 1.0, 9: 3.0}, at, mpc))
     yield from same("RBE3 of weights", modes(chladni, folder, "rbe3.bdf", mean), modes(chladni, folder, "mpc3.bdf", by_hand))
 
 
