@@ -117,6 +117,12 @@ void check_independent(const mesh::Mesh& mesh, const plate::DofMap& dofs, const 
   for (const int component : dofs.components_of(node)) {
     if (dofs.dof(node, component) || is_of_ring(dofs, node)) continue;
     const std::string& followed = dofs.followed(node);
+    if (followed.empty()) {
+      throw Error(
+          fmt::format("interface node set \"{}\": an equation of the mesh moves node {} as "
+                      "others move; name one of those in interface.nodes instead",
+                      name, mesh.node_numbers[node]));
+    }
     throw Error(
         fmt::format("interface node set \"{}\": node {} follows \"{}\"; put \"{}\" into "
                     "interface.nodes instead",

@@ -304,6 +304,7 @@ class Middles {
     deck_.nodes.emplace(next_, x);
     middles_.emplace(ends_of(a, b), next_);
     added_.push_back({.node = next_, .ends = ends_of(a, b)});
+    deck_.added_middles.push_back({next_, a, b});
     return next_++;
   }
 
@@ -477,8 +478,43 @@ Mesh with_flat_corners_split(Mesh mesh)
   return split;
 }
 
-void add_equations(Mesh& mesh, const Deck& deck, const NodeIndex& index)
+/// A node in the middle of an edge whose ends equations move goes with them, as the edge does in
+/// the deck, which has no such node.
+void add_equations_of_middles(Deck& deck)
 {
+  std::map<std::int64_t, std::set<int>> moved;
+  for (const DeckEquation& equation : deck.equations)
+    for (const DeckEquation::Term& term : equation.terms) moved[term.node].insert(term.component);
+  for (const auto& [middle, a, b] : deck.added_middles) {
+    const auto of_a = moved.find(a), of_b = moved.find(b);
+    if (of_a == moved.end() || of_b == moved.end()) continue;
+    for (const int c : of_a->second) {
+      if (!of_b->second.contains(c) || moved[middle].contains(c)) continue;
+      deck.equations.push_back({.entry = fmt::format("node between the nodes {} and {}", a, b),
+                                .terms = {{middle, c, -1.0}, {a, c, 0.5}, {b, c, 0.5}}});
+    }
+  }
+}
+
+/// Holds what a deck holds in own axes of nodes of equations.
+void refuse_held_apart(const Deck& deck)
+{
+  for (const auto& [node, entry] : deck.held_apart)
+    for (const DeckEquation& equation : deck.equations)
+      if (std::ranges::find(equation.terms, node, &DeckEquation::Term::node) !=
+          equation.terms.end()) {
+        throw Error(
+            fmt::format("{}: node {} belongs to no element and has axes of its own; hold "
+                        "it in the basic axes",
+                        entry, node));
+      }
+}
+
+void add_equations(Mesh& mesh, Deck& deck, const NodeIndex& index)
+{
+  refuse_held_apart(deck);
+  const std::size_t n_of_deck = deck.equations.size();
+  add_equations_of_middles(deck);
   for (const DeckEquation& equation : deck.equations) {
     mesh.equations.push_back({.place = equation.entry, .terms = {}});
     for (const auto& [number, component, factor] : equation.terms) {
@@ -489,8 +525,10 @@ void add_equations(Mesh& mesh, const Deck& deck, const NodeIndex& index)
     }
   }
   if (!deck.equations.empty()) {
-    mesh.notes.push_back(
-        fmt::format("{} equations between nodes hold as the deck has them", deck.equations.size()));
+    mesh.notes.push_back(fmt::format(
+        "{} equations between nodes hold as the deck has them, supports in own axes of nodes among "
+        "them, in every analysis and in a reduced body",
+        n_of_deck));
   }
 }
 
@@ -719,7 +757,11 @@ void hold_in_axes(Deck& deck, const NodesOfDeck& known, const DeckSupport& suppo
 {
   if (are_whole(support.components)) return;
   for (const std::int64_t node : support.nodes) {
-    if (!deck.axes.contains(node) || !known.connected.contains(node)) continue;
+    if (!deck.axes.contains(node)) continue;
+    if (!known.connected.contains(node)) {
+      deck.held_apart.emplace_back(node, support.entry);
+      continue;
+    }
     for (const int c : support.components) {
       if (c >= 3 && !known.rotating.contains(node)) continue;
       DeckEquation equation{.entry = support.entry, .terms = {}};
@@ -806,7 +848,7 @@ void add_elongation(Deck& deck, const NodesOfDeck& known, const DeckElongation& 
   for (std::size_t c = 0; c < 3; ++c) middle[c] = 0.5 * (a[c] + b[c]);
   deck.nodes[added] = middle;
   deck.groups[std::size_t(group_index(deck, group, 0))].nodes = {added};
-  const bool turn = known.rotating.contains(nodes[0]) && known.rotating.contains(nodes[1]);
+  const bool turn = known.turns(nodes[0]) && known.turns(nodes[1]);
   for (const int first : turn ? std::vector{0, 3} : std::vector{0}) {
     DeckEquation equation{.entry = entry, .terms = {{added, first, -1.0}}};
     add_along(equation, nodes[1], first, unit(along), 1.0);

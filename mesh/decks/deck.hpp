@@ -83,6 +83,10 @@ struct Deck {
   std::vector<DeckEquation> equations = {};
   std::vector<DeckTie> ties = {};
   std::map<std::int64_t, DeckAxes> axes = {};  ///< of nodes with axes of their own
+  /// Supports in such axes of nodes without an element, which no equation may move; with the line.
+  std::vector<std::pair<std::int64_t, std::string>> held_apart = {};
+  /// Nodes that the deck leaves out between two others.
+  std::vector<std::array<std::int64_t, 3>> added_middles = {};
   std::vector<std::string> notes = {};
 };
 
@@ -101,6 +105,11 @@ struct NodesOfDeck {
   std::set<std::int64_t> connected, rotating;
 
   explicit NodesOfDeck(const Deck& deck);
+  /// Whether a node can turn: not one of solids alone.
+  bool turns(std::int64_t node) const
+  {
+    return rotating.contains(node) || !connected.contains(node);
+  }
 };
 
 /// Held components (0 to 5) of nodes.

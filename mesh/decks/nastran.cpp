@@ -594,6 +594,7 @@ RigidElement rbe2(const Card& card, const Deck& deck)
   }
   if (element.nodes.empty()) card.refuse("has no nodes that follow");
   const std::vector<int> held = card.components(3);
+  if (held.empty()) card.refuse("needs the components that follow, as 123456, in field 4");
   const bool is_of_solids =
       held == std::vector<int>{0, 1, 2} && !have_rotations(deck, element.nodes);
   if (held.size() != 6 && !is_of_solids) element.components = held;
@@ -613,6 +614,7 @@ RigidElement rbe3(const Card& card)
   for (std::size_t i = 5; i <= card.n_fields(); ++i) {
     if (!card.has(i)) continue;
     if (card.field(i).find('.') == std::string_view::npos) {
+      if (weight == 0.0) card.refuse("needs a weight with a point, as 1., before the nodes");
       element.nodes.push_back(card.integer(i, "number of a node"));
       element.weights[element.nodes.back()] += weight;
       continue;

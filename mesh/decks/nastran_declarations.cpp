@@ -448,8 +448,12 @@ class PointDeclarer {
                  J = property->real_or(first + 2, "J", 0.0) * units_.second_moment(),
                  shear = stuff.young / (2.0 + 2.0 * stuff.poisson);
     DeclaredSpring spring{.at = name_of_rod(card, 0), .stiffness = {stuff.young * area / length}};
-    if (J > 0.0 && known_.rotating.contains(a) && known_.rotating.contains(b))
+    if (J > 0.0 && known_.turns(a) && known_.turns(b))
       spring.stiffness[3] = shear * J / length;
+    else if (J > 0.0)
+      all_.notes.push_back(
+          fmt::format("{} {}: a node of solids does not turn, so that its torsion is left out",
+                      card.place(), card.name()));
     all_.springs.push_back(spring);
     const double of_length =
         property->real_or(first + 4, "NSM", 0.0) * units_.mass() / units_.length;

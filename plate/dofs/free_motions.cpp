@@ -135,6 +135,8 @@ Parts connected_parts(const mesh::Mesh& mesh, const DofMap& dofs,
     for (const int node : nodes)
       for (const int number : dofs.own_numbers(node)) connection.join(first, number);
   });
+  for (const auto& [node, components] : nodes_of_equations_alone(mesh, dofs.coupled()))
+    for (const int number : dofs.own_numbers(node)) connection.join(number_of(dofs, node), number);
   join_over_sectors(mesh, dofs, connection);
   Parts parts{.of_number = numbered(connection, dofs.n_active()), .body = {}, .place = {}};
   const int n_parts = count_of(parts.of_number);
@@ -238,6 +240,7 @@ class Resistance {
     double largest = 0.0;
     for (const mesh::Equation::Term& term : equation.terms)
       largest = std::max(largest, std::abs(term.factor));
+    if (largest == 0.0) return;
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(rows_[std::size_t(body)].cols());
     for (const auto& [node, component, factor] : equation.terms) {
       const double unit = component < 3 ? 1.0 : 1.0 / extents_[std::size_t(body)].length;

@@ -93,6 +93,28 @@ PointElement spring_between(const mesh::Mesh& mesh, const DofMap& dofs, const Sp
   });
 }
 
+/// A component of a node of equations alone is at rest if none of them has it.
+void refuse_at_rest(const mesh::Mesh& mesh, const DofMap& dofs, const Spring& spring,
+                    std::span<const int> nodes)
+{
+  if (mesh.equations.empty()) return;
+  const auto alone = nodes_of_equations_alone(mesh, dofs.coupled());
+  for (const int node : nodes) {
+    const auto found = alone.find(node);
+    if (found == alone.end()) continue;
+    for (std::size_t c = 0; c < 6; ++c) {
+      if ((spring.stiffness[c] == 0.0 && spring.damping[c] == 0.0) ||
+          found->second.contains(int(c)))
+        continue;
+      throw Error(fmt::format(
+          "spring at \"{}\": node {} belongs to no element, and no equation has its {}, along "
+          "which "
+          "the spring acts; give the node an equation there, or take that stiffness out",
+          spring.at, mesh.node_numbers[std::size_t(node)], component_names[c]));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<PlacedSpring> place_springs(const mesh::Mesh& mesh, const DofMap& dofs,
@@ -100,6 +122,9 @@ std::vector<PlacedSpring> place_springs(const mesh::Mesh& mesh, const DofMap& do
 {
   std::vector<PlacedSpring> placed;
   for (const Spring& spring : springs) {
+    refuse_at_rest(mesh, dofs, spring,
+                   spring.to ? nodes_between(mesh, dofs, spring)
+                             : nodes_at(mesh, dofs, "spring at", spring.at));
     std::vector<int> components;
     for (int c = 0; c < 6; ++c)
       if (spring.stiffness[static_cast<std::size_t>(c)] != 0.0) components.push_back(c);

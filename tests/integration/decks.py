@@ -210,6 +210,45 @@ def cards_are_equations(chladni, folder):
     yield from same("RBE3 of weights", modes(chladni, folder, "rbe3.bdf", mean), modes(chladni, folder, "mpc3.bdf", by_hand))
 
 
+def wedges(text):
+    """Each hexahedron as two wedges of six nodes."""
+    lines = []
+    for line in text.split("\n"):
+        numbers = line.split(", ")
+        if len(numbers) == 9:
+            e, n = int(numbers[0]), numbers[1:]
+            lines += [", ".join([str(2 * e - 1), n[0], n[1], n[2], n[4], n[5], n[6]]), ", ".join([str(2 * e), n[0], n[2], n[3], n[4], n[6], n[7]])]
+        else:
+            lines.append(line)
+    return "\n".join(lines).replace("C3D8", "C3D6").replace("elset=All, material", "elset=Part0, material")
+
+
+def nodes_of_no_element_move(chladni, folder):
+    """Nodes of equations alone, and those that stand in the middle of the edges of a deck without them."""
+    block = lambda end, of=lambda text: text: of(body((0, 40, 6, 2, 2), end=end))
+    reference = "*Node\n900, 50., 5., 4.\n*Surface, type=node, name=S\nHigh_0\n*Coupling, ref node=900, surface=S, constraint name=C\n*Kinematic\n1, 2\n"
+    follows = modes(chladni, folder, "kinematic.inp", block(reference + "*Boundary\nLow_0, 1, 3\n900, 1, 6\n"))
+    yield from same("a held reference", follows, modes(chladni, folder, "held.inp", block("*Boundary\nLow_0, 1, 3\nHigh_0, 1, 2\n")))
+    axes = "".join(f"*Transform, nset={name}_0\n0., 1., 0., -1., 0., 0.\n" for name in ("Low", "High"))
+    turned = modes(chladni, folder, "wedges.inp", block(axes + "*Boundary\nLow_0, 2\nHigh_0, 1\nHigh_0, 3\n", wedges))
+    yield from same("wedges held in axes", turned, modes(chladni, folder, "wedges_held.inp", block("*Boundary\nLow_0, 1\nHigh_0, 2, 3\n", wedges)))
+    plate = lambda *cards: deck(1).replace("ENDDATA", "\n".join([*cards, "ENDDATA"]))
+    plain = modes(chladni, folder, "plain.bdf", plate())
+    yield from same("an equation of nothing", modes(chladni, folder, "nothing.bdf", plate("MPC,1,13,3,0.")), plain)
+    rod = ("GRID,950,,400.,0.,0.", "CROD,70,60,13,950", "PROD,60,1,10.,30000.", "SPC1,1,123456,950")
+    twisted = modes(chladni, folder, "rod.bdf", plate(*rod))
+    springs = plate(f"CELAS2,71,{2.1e5 / 2.6 * 30000 / 100!r},13,4", f"CELAS2,72,{2.1e5 * 10 / 100!r},13,1", "CONM2,73,13,,3.925-6")  # and half of its mass
+    yield from same("a rod to the ground", twisted, modes(chladni, folder, "springs.bdf", springs))
+    rigid = ("GRID,900,,350.,40.,0.,{}", "CORD2R,5,,0.,0.,0.,0.,0.,1.,\n,0.,1.,0.", card("RBE2", 8, 900, 3, 13, 9, 117))
+    for n, (words, cards) in enumerate((("no equation has its x", (rigid[0].format(""), *rigid[1:], "CELAS2,3,1000.,900,1")),
+                         ("hold it in the basic axes", (rigid[0].format(5), *rigid[1:], card("SPC1", 1, 3, 900))))):  # fmt: skip
+        (folder / f"no_{n}.bdf").write_text(plate(*cards))
+        run(chladni, "import", folder / f"no_{n}.bdf", "--length-unit", "mm", "--output", folder / f"no_{n}.toml")
+        done = start(chladni, "modes", folder / f"no_{n}.toml", "--output", folder)
+        if done.returncode == 0 or words not in done.stderr:
+            yield f"{words}: {done.stderr}"
+
+
 def mean_equation(grids, weights, place, mpc):
     """x of a node at a place that moves as the mean does in the plane."""
     total = sum(weights.values())
@@ -229,7 +268,7 @@ def main(programs):
         failures = [*of_order(chladni, folder, 1), *of_order(chladni, folder, 2),
                     *units_are_asked_for(chladni, folder), *bad_decks_are_refused(chladni, folder),
                     *parts_are_joined(chladni, folder), *supports_turn(chladni, folder),
-                    *trusses_are_springs(chladni, folder), *rods_and_bushes_are_springs(chladni, folder), *cards_are_equations(chladni, folder)]  # fmt: skip
+                    *trusses_are_springs(chladni, folder), *rods_and_bushes_are_springs(chladni, folder), *cards_are_equations(chladni, folder), *nodes_of_no_element_move(chladni, folder)]  # fmt: skip
     print("\n".join(f"FAILED: {line}" for line in failures))
     sys.exit(bool(failures))
 

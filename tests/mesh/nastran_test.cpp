@@ -709,9 +709,9 @@ const std::vector<Refusal> refused_cards{
     {nastran_plate + "CBAR,3,5,1,2,0.,0.,0.\nPBAR,5,9,1.,1.,2.,1.\n", {"CBAR 3", "no vector"}},
     {nastran_plate + "CBAR,3,5,1,2,9\nPBAR,5,9,1.,1.,2.,1.\n", {"CBAR 3", "its G0 is not there"}},
     {nastran_plate + "RBE3,6,,9,123456,1.,12,1,2\n", {"RBE3 6", "other components than 123"}},
+    {nastran_plate + "RBE3,6,,9,123456,1,2\n", {"RBE3 6", "weight"}},
+    {nastran_plate + "RBE2,6,9,,1,2\n", {"RBE2 6", "components"}},
     {nastran_plate + "RBE3,6,,9,123456,1.,123\n", {"RBE3 6", "no nodes to average"}},
-    {nastran_plate + "CBAR,3,5,1,2,0.,0.,1.\nCBAR,4,5,2,3,0.,1.,0.\nPBAR,5,9,1.,1.,2.,1.\n",
-     {"CBAR 4", "property of its own"}},
     {nastran_plate + "CBEAM,3,5,1,2,0.,0.,1.\nPBEAM,5,9,1.,1.,2.,,1.\n,0.,0.,0.,0.,0.,0.,0.,0.\n"
                      ",NO,1.,2.,2.,2.\n",
      {"PBEAM 5", "station"}},
