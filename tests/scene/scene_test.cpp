@@ -531,7 +531,7 @@ TEST(SceneError, NamesPlaceAndRangeOfANumber)
       {"poisson = 0.3", "poisson = 0.5",
        "scene.toml:11: material.iron.poisson = 0.5: must be > -1 and < 0.5"},
       {"density = 6300.0", "density = nan",
-       "scene.toml:12: material.iron.density = nan: must be > 0 (kg/m^3)"},
+       "scene.toml:12: material.iron.density = nan: must be >= 0 (kg/m^3)"},
       {"young = 9e10", "young = 0", "scene.toml:10: material.iron.young = 0: must be > 0 (Pa)"},
       {"outer_radius = 0.162", "outer_radius = 0.02",
        "scene.toml:5: mesh.outer_radius = 0.02: must be > 0.025 (m, the inner radius)"},
