@@ -185,6 +185,18 @@ std::optional<std::size_t> axis_between(const Deck& deck, const std::vector<std:
   return std::nullopt;
 }
 
+/// Whether two nodes are at a distance across a displacement (0 to 2), where a spring of a scene,
+/// which acts midway between them, is not one of the difference of their motions.
+bool are_apart_across(const Deck& deck, const std::vector<std::int64_t>& nodes,
+                      std::size_t component)
+{
+  constexpr double same_place = 1e-9;
+  const Vector &a = deck.nodes.at(nodes[0]), &b = deck.nodes.at(nodes[1]);
+  Vector across = minus(b, a);
+  across[component] = 0.0;
+  return norm(across) > same_place * (norm(a) + norm(b));
+}
+
 /// A bar without bending: an element T3D2 that a solid section names.
 struct AbaqusTruss {
   std::int64_t number;
@@ -307,9 +319,9 @@ class AbaqusReader {
     deck_.axes = transformed_axes(model, sets_, deck_);
     for (const Keyword& keyword : model)
       if (keyword.name != "NODE") read(keyword);
-    hold_in_axes(model);
     const NodesOfDeck known(deck_);
-    for (const AbaqusPoint& point : abaqus_points(model, sets_)) add_point(point, known);
+    const Holders holders(deck_);
+    for (const AbaqusPoint& point : abaqus_points(model, sets_)) add_point(point, known, holders);
     for (const AbaqusTruss& truss : abaqus_trusses(model, sets_)) {
       points_[truss.number] = {truss.nodes.begin(), truss.nodes.end()};
       add_elongation(
@@ -322,8 +334,10 @@ class AbaqusReader {
             .nodes = {truss.nodes[end]};
       }
     }
+    hold_in_axes(model);
     add_sets();
     couple();
+    refuse_rotations(model);
     note_reduced();
     for (const auto& [name, n] : left_out_) {
       deck_.notes.push_back(
@@ -470,7 +484,7 @@ class AbaqusReader {
   }
 
   /// Its nodes become groups; dampers are left out.
-  void add_point(const AbaqusPoint& point, const NodesOfDeck& known)
+  void add_point(const AbaqusPoint& point, const NodesOfDeck& known, const Holders& holders)
   {
     points_[point.number] = point.nodes;
     if (point.type().starts_with("DASHPOT")) {
@@ -493,6 +507,30 @@ class AbaqusReader {
       const int group = group_index(deck_, point.group(end), 0);
       deck_.groups[std::size_t(group)].nodes = {point.nodes[end]};
     }
+    if (point.type() == "SPRING2" && holders.is_in_mesh(point.nodes[0]) &&
+        holders.is_in_mesh(point.nodes[1]))
+      add_difference(point);
+  }
+
+  /// Of a displacement of nodes apart or with axes of their own: a new node has it as its own, in
+  /// the place of the first one.
+  void add_difference(const AbaqusPoint& point)
+  {
+    const std::vector<KeywordRow>& rows = point.property->rows;
+    if (rows.empty() || Keyword::field(rows[0], 0) != Keyword::field(rows[0], 1)) return;
+    const auto c = std::size_t(point.property->integer(rows[0], 0, "component")) - 1;
+    const auto has_axes = [&](std::int64_t node) { return deck_.axes.contains(node); };
+    if (c > 2 ||
+        (!are_apart_across(deck_, point.nodes, c) && std::ranges::none_of(point.nodes, has_axes)))
+      return;
+    const std::int64_t added = deck_.nodes.rbegin()->first + 1;
+    deck_.nodes[added] = deck_.nodes.at(point.nodes[0]);
+    deck_.groups[std::size_t(group_index(deck_, point.group(0), 0))].nodes = {added};
+    DeckEquation equation{.entry = point.row->place + ": *ELEMENT",
+                          .terms = {{added, int(c), -1.0}}};
+    add_term(deck_, equation, {point.nodes[1], int(c), 1.0});
+    add_term(deck_, equation, {point.nodes[0], int(c), -1.0});
+    deck_.equations.push_back(std::move(equation));
   }
 
   /// The number of terms, then a node or a set, a component and a factor of each, in as many rows
@@ -522,13 +560,16 @@ class AbaqusReader {
   void add_equations(const Keyword& keyword, const KeywordRow& row)
   {
     std::vector<std::vector<std::int64_t>> nodes;
-    std::size_t n = 1;
     for (std::size_t k = 0; k < row.fields.size(); k += 3) {
       nodes.push_back(abaqus_nodes(keyword, row, row.fields[k], sets_));
-      if (nodes.back().size() != 1 && n != 1 && nodes.back().size() != n)
-        keyword.refuse(row, "its sets have different numbers of nodes");
-      n = std::max(n, nodes.back().size());
+      if (nodes.back().empty())
+        keyword.refuse(row, fmt::format("the set \"{}\" has no nodes", row.fields[k]));
+      if (nodes.back().size() != 1 && nodes.back().size() != nodes.front().size()) {
+        keyword.refuse(row, fmt::format("\"{}\" has {} nodes, where its first term has {}",
+                                        row.fields[k], nodes.back().size(), nodes.front().size()));
+      }
     }
+    const std::size_t n = nodes.front().size();
     for (std::size_t e = 0; e < n; ++e) {
       DeckEquation equation{.entry = row.place + ": *EQUATION", .terms = {}};
       for (std::size_t t = 0; t < nodes.size(); ++t) {
@@ -549,6 +590,10 @@ class AbaqusReader {
   {
     if (deck_.axes.empty()) return;
     const NodesOfDeck known(deck_);
+    std::set<std::int64_t> loose;  // if of no element
+    for (const auto& [number, nodes] : points_) loose.insert(nodes.begin(), nodes.end());
+    for (const DeckEquation& equation : deck_.equations)
+      for (const DeckEquation::Term& term : equation.terms) loose.insert(term.node);
     for (const Keyword& keyword : model) {
       if (keyword.name != "BOUNDARY") continue;
       for (const KeywordRow& row : keyword.rows) {
@@ -556,11 +601,44 @@ class AbaqusReader {
         const std::vector<int> held = held_components(keyword, row);
         const auto nodes = abaqus_nodes(keyword, row, row.fields.front(), sets_);
         const auto others = held_in_basic_axes(deck_, nodes, held);
+        for (const std::int64_t node : nodes) {
+          if (!deck_.axes.contains(node) || known.connected.contains(node) ||
+              !loose.contains(node) || are_whole(held))
+            continue;
+          keyword.refuse(row, fmt::format("node {} of a spring or an equation has a *TRANSFORM and "
+                                          "belongs to no element; take it out of the *TRANSFORM",
+                                          node));
+        }
         mesh::hold_in_axes(
             deck_, known, {.entry = row.place + ": *BOUNDARY", .nodes = nodes, .components = held});
         if (others.size() < nodes.size())
           deck_.groups[std::size_t(group_index(deck_, name_of_others(row), 0))].nodes = others;
       }
+    }
+  }
+
+  /// Of a ROT NODE, only those of *BOUNDARY are known as rotations.
+  void refuse_rotations(std::span<const Keyword> model) const
+  {
+    for (const Keyword& keyword : model) {
+      if (keyword.name != "RIGID BODY" || !keyword.has("ROT NODE")) continue;
+      const std::int64_t node =
+          only_node(keyword, {keyword.place, {}}, keyword.parameter("ROT NODE"));
+      const auto refuse = [&](std::string_view where) {
+        keyword.refuse(fmt::format(
+            "its ROT NODE {} is in {}, where only *BOUNDARY can name it; take REF NODE and its "
+            "components 4 to 6",
+            node, where));
+      };
+      if (deck_.axes.contains(node)) refuse("a *TRANSFORM");
+      for (const DeckEquation& equation : deck_.equations)
+        for (const DeckEquation::Term& term : equation.terms)
+          if (term.node == node) refuse(equation.entry);
+      for (const auto& [number, nodes] : points_)
+        if (std::ranges::find(nodes, node) != nodes.end())
+          refuse(fmt::format("element {}", number));
+      for (const DeckCoupling& coupling : deck_.couplings)
+        if (coupling.reference == node) refuse(coupling.entry);
     }
   }
 
@@ -1166,13 +1244,7 @@ class AbaqusDeclarer {
     if (k < 0.0) property.refuse("its stiffness is negative");
     std::size_t component = 0;
     if (is_axial) {
-      const auto axis = axis_between(deck_, point.nodes);
-      if (!axis) {
-        all_.springs.push_back(
-            {.at = point.group(0), .stiffness = {k * units_.force / units_.length}});
-        return;
-      }
-      component = *axis;
+      component = axis_between(deck_, point.nodes).value_or(0);
     } else {
       const KeywordRow& row = property.rows.front();
       const std::int64_t c = property.integer(row, 0, "component");
@@ -1180,16 +1252,30 @@ class AbaqusDeclarer {
         property.refuse(row, "joins two components; a spring of a scene acts in one of 1 to 6");
       component = std::size_t(c) - 1;
     }
-    if (deck_.axes.contains(point.nodes.front()))
-      property.refuse(fmt::format("node {} has a *TRANSFORM", point.nodes.front()));
+    DeclaredSpring spring{.at = point.group(0), .stiffness = {}};
+    spring.stiffness[component] =
+        k * (component < 3 ? units_.force / units_.length : units_.force * units_.length);
+    const auto own = std::ranges::find(deck_.groups, spring.at, &DeckGroup::name);
+    if (own->nodes.front() != point.nodes.front()) {  // of an equation
+      all_.springs.push_back(spring);
+      return;
+    }
+    for (const std::int64_t node : point.nodes)
+      if (!is_axial && deck_.axes.contains(node))
+        property.refuse(fmt::format("node {} has a *TRANSFORM", node));
     std::vector<std::size_t> ends;
     for (std::size_t end = 0; end < point.nodes.size(); ++end)
       if (!is_ground(point.nodes[end], int(component))) ends.push_back(end);
     if (ends.empty()) return;
-    DeclaredSpring spring{.at = holder(point, ends.front()), .stiffness = {}};
+    if (!is_axial && ends.size() == 2 && component < 3 &&
+        are_apart_across(deck_, point.nodes, component)) {
+      point.elements->refuse(
+          *point.row,
+          "its nodes are apart across its component, and one belongs to no element; take "
+          "nodes at one place or SPRINGA");
+    }
+    spring.at = holder(point, ends.front());
     if (ends.size() == 2) spring.to = holder(point, ends.back());
-    spring.stiffness[component] =
-        k * (component < 3 ? units_.force / units_.length : units_.force * units_.length);
     all_.springs.push_back(spring);
   }
 
@@ -1354,6 +1440,11 @@ void add_set_row(const Keyword& keyword, const KeywordRow& row, const std::strin
   }
   std::vector<std::int64_t>& set = sets[name];
   set.insert(set.end(), numbers.begin(), numbers.end());
+  if (keyword.has("UNSORTED")) {
+    if (std::set(set.begin(), set.end()).size() < set.size())
+      keyword.refuse(row, "has a node twice, which an UNSORTED set must not");
+    return;
+  }
   std::ranges::sort(set);
   set.erase(std::unique(set.begin(), set.end()), set.end());
 }

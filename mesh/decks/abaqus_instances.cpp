@@ -46,6 +46,10 @@ struct Placement {
 Placement placement_of(const Keyword& instance)
 {
   if (instance.rows.size() > 2) instance.refuse("has more than a translation and a rotation");
+  if (!instance.rows.empty() && !Keyword::field(instance.rows[0], 3).empty()) {
+    instance.refuse(instance.rows[0],
+                    "is a rotation without a translation before it; write 0., 0., 0. there");
+  }
   Placement placement;
   const auto vector = [&](const KeywordRow& row, std::size_t first) {
     Vector v{};
@@ -215,6 +219,12 @@ class Flattening {
       if (is_name) value = renamed(keyword, value, scope);
     }
     for (std::size_t i = 0; i < keyword.rows.size(); ++i) change_row(keyword, i, scope);
+    const bool has_place = keyword.has("TYPE") && keyword.parameter("TYPE") == "C";
+    if (keyword.name == "TRANSFORM" && !scope.prefix.empty() &&
+        (scope.placement.is_turned() || (has_place && norm(scope.placement.translation) > 0.0))) {
+      keyword.refuse(
+          "is of a part whose instance is moved; write it in the assembly, with the axes there");
+    }
     return keyword;
   }
 

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "common/error.hpp"
+#include "mesh/decks/abaqus.hpp"
 #include "mesh/decks/deck_text.hpp"
 
 namespace chladni::mesh {
@@ -212,26 +213,52 @@ double Keyword::real_or(const KeywordRow& row, std::size_t i, std::string_view w
 
 namespace {
 
+/// A row of *BOUNDARY that holds a ROT NODE, as one that holds rotations of its REF NODE.
+KeywordRow of_rotations(const Keyword& keyword, KeywordRow row, const std::string& reference)
+{
+  row.fields.front() = reference;
+  for (std::size_t i = 1; i < std::min<std::size_t>(row.fields.size(), 3); ++i) {
+    if (row.fields[i].empty()) continue;
+    const std::int64_t component = keyword.integer(row, i, "component");
+    if (component > 3) keyword.refuse(row, "a ROT NODE has the components 1 to 3");
+    row.fields[i] = fmt::format("{}", component + 3);
+  }
+  return row;
+}
+
 /// The displacements of the node ROT NODE of a rigid body are the rotations of its REF NODE.
 std::vector<Keyword> with_rotations(std::vector<Keyword> keywords)
 {
-  std::map<std::string, std::string> reference_of;
+  const auto has_rotations = [](const Keyword& keyword) {
+    return keyword.name == "RIGID BODY" && keyword.has("ROT NODE");
+  };
+  if (std::ranges::none_of(keywords, has_rotations)) return keywords;
+  const AbaqusSets sets = abaqus_sets(keywords);
+  std::map<std::int64_t, std::string> reference_of;
   for (const Keyword& keyword : keywords)
-    if (keyword.name == "RIGID BODY" && keyword.has("ROT NODE"))
-      reference_of[keyword.parameter("ROT NODE")] = keyword.parameter("REF NODE");
-  for (Keyword& keyword : keywords) {
-    if (keyword.name != "BOUNDARY") continue;
-    for (KeywordRow& row : keyword.rows) {
-      const auto reference = reference_of.find(row.fields.front());
-      if (reference == reference_of.end()) continue;
-      row.fields.front() = reference->second;
-      for (std::size_t i = 1; i < std::min<std::size_t>(row.fields.size(), 3); ++i) {
-        if (row.fields[i].empty()) continue;
-        const std::int64_t component = keyword.integer(row, i, "component");
-        if (component > 3) keyword.refuse(row, "a ROT NODE has the components 1 to 3");
-        row.fields[i] = fmt::format("{}", component + 3);
-      }
+    if (has_rotations(keyword)) {
+      for (const std::int64_t node :
+           abaqus_nodes(keyword, {keyword.place, {}}, keyword.parameter("ROT NODE"), sets))
+        reference_of[node] = keyword.parameter("REF NODE");
     }
+  for (std::size_t i = 0, n = abaqus_model(keywords).size(); i < n; ++i) {
+    Keyword& keyword = keywords[i];
+    if (keyword.name != "BOUNDARY") continue;
+    std::vector<KeywordRow> rows;
+    for (const KeywordRow& row : keyword.rows) {
+      const std::vector<std::int64_t> nodes = abaqus_nodes(keyword, row, row.fields.front(), sets);
+      const auto n_rotations =
+          std::ranges::count_if(nodes, [&](auto node) { return reference_of.contains(node); });
+      if (n_rotations == 0) {
+        rows.push_back(row);
+        continue;
+      }
+      if (n_rotations < std::ssize(nodes))
+        keyword.refuse(row, "holds a ROT NODE among others; hold it on a line of its own");
+      for (const std::int64_t node : nodes)
+        rows.push_back(of_rotations(keyword, row, reference_of.at(node)));
+    }
+    keyword.rows = std::move(rows);
   }
   return keywords;
 }

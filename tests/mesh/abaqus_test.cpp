@@ -333,6 +333,49 @@ TEST(AbaqusDeck, HasEquationsOfNodesAndSets)
   EXPECT_DOUBLE_EQ(mesh.equations.at(0).terms[2].factor, 2e-3) << "of a rotation, beside metres";
 }
 
+TEST(AbaqusDeck, KeepsTheOrderOfUnsortedSetsInEquations)
+{
+  const Deck deck =
+      deck_of_abaqus(abaqus_plate + "*Nset, nset=A\n2, 1\n*Nset, nset=B, unsorted\n4\n" +
+                     "3\n*Equation\n2\nA, 1, 1., B, 1, -1.\n");
+  ASSERT_EQ(deck.equations.size(), 2U);
+  EXPECT_EQ(deck.equations[0].terms[0].node, 1) << "sorted";
+  EXPECT_EQ(deck.equations[0].terms[1].node, 4);
+  EXPECT_EQ(deck.equations[1].terms[1].node, 3);
+}
+
+/// Nodes 1 and 2 are 2 apart in x: a spring of the scene across it would act at (1, 0).
+TEST(AbaqusDeck, HasTheDifferenceOfASpringAcrossADistanceAsAnEquation)
+{
+  const std::string text =
+      abaqus_plate + "*Element, type=SPRING2, elset=S\n11, 1, 2\n" + "*Spring, elset=S\n2, 2\n5.\n";
+  const Deck deck = deck_of_abaqus(text);
+  ASSERT_EQ(deck.equations.size(), 1U);
+  const auto& terms = deck.equations[0].terms;
+  ASSERT_EQ(terms.size(), 3U);
+  EXPECT_EQ(terms[0].node, 5) << "beyond the nodes of the deck";
+  EXPECT_EQ(terms[1].factor * terms[2].factor, -1.0);
+  for (const auto& term : terms) EXPECT_EQ(term.component, 1);
+  const Declarations declared = declared_by_abaqus(text, 1.0);
+  ASSERT_EQ(declared.springs.size(), 1U);
+  EXPECT_EQ(declared.springs[0].at, "spring_11_1");
+  EXPECT_FALSE(declared.springs[0].to);
+  EXPECT_DOUBLE_EQ(declared.springs[0].stiffness[1], 5.0);
+}
+
+const std::string with_rot_node = abaqus_plate +
+                                  "*Node\n9, 0., 0., 5.\n10, 0., 0., 5.\n*Nset, nset=Rot\n10\n" +
+                                  "*Rigid body, ref node=9, rot node=10, tie nset=All\n";
+
+TEST(AbaqusDeclarations, HoldRotationsByTheSetOfARotNode)
+{
+  const Declarations declared = declared_by_abaqus(with_rot_node + "*Boundary\nRot, 1, 2\n", 1.0);
+  ASSERT_EQ(declared.supports.size(), 1U);
+  EXPECT_EQ(declared.supports[0].group, "node_9");
+  EXPECT_EQ(declared.supports[0].components, (std::vector<int>{3, 4}));
+  EXPECT_TRUE(declared.notes.empty());
+}
+
 TEST(AbaqusDeclarations, HaveMassesAndSpringsToNodesAndTheGround)
 {
   const std::string points =
@@ -567,6 +610,32 @@ const std::vector<Refusal> refused_keywords{
     {abaqus_plate + "*Equation\n2\n1, 7, 1., 2, 1, 1.\n", {"*EQUATION", "7 is no component"}},
     {abaqus_plate + "*Transform, nset=All, type=S\n0., 0., 0., 1., 0., 0.\n",
      {"*TRANSFORM", "R and C"}},
+    {abaqus_plate + "*Nset, nset=E\n*Equation\n2\nE, 1, 1., 1, 1, -1.\n",
+     {"line 17", "*EQUATION", "the set \"E\" has no nodes"}},
+    {abaqus_plate + "*Equation\n2\n1, 1, 1., All, 1, -1.\n",
+     {"line 16", "*EQUATION", "\"ALL\" has 4 nodes"}},
+    {abaqus_plate + "*Nset, nset=U, unsorted\n2, 1, 2\n", {"line 16", "*NSET", "a node twice"}},
+    {with_rot_node + "*Element, type=SPRING2, elset=S\n11, 1, 9\n*Spring, elset=S\n1, 1\n5.\n",
+     {"line 22", "*ELEMENT", "apart across", "SPRINGA"}},
+    {abaqus_plate + "*Node\n8, 2., 0., -1.\n*Nset, nset=N\n8\n*Transform, nset=N\n0., 0., 1., 1.\n"
+                    "*Element, type=SPRINGA, elset=S\n11, 2, 8\n*Spring, elset=S\n\n5.\n"
+                    "*Boundary\n8, 1\n",
+     {"line 27", "*BOUNDARY", "node 8", "*TRANSFORM"}},
+    {with_rot_node + "*Nset, nset=Both\n9, 10\n*Boundary\nBoth, 1\n",
+     {"line 24", "*BOUNDARY", "ROT NODE among others"}},
+    {with_rot_node + "*Equation\n2\n10, 1, 1., 1, 4, -1.\n",
+     {"*RIGID BODY", "ROT NODE 10", "*EQUATION"}},
+    {with_rot_node + "*Transform, nset=Rot\n0., 1., 0., -1.\n",
+     {"*RIGID BODY", "ROT NODE 10", "*TRANSFORM"}},
+    {with_rot_node + "*Element, type=MASS, elset=M\n11, 10\n*Mass, elset=M\n1.\n",
+     {"*RIGID BODY", "ROT NODE 10", "element 11"}},
+    {"*Part, name=P\n" + abaqus_square +
+         "*Transform, nset=All\n0., 1., 0., -1.\n*End Part\n*Assembly, name=A\n"
+         "*Instance, name=I, part=P\n0., 0., 0.\n0., 0., 0., 0., 0., 1., 90.\n*End Instance\n",
+     {"line 9", "*TRANSFORM", "instance is moved"}},
+    {part + "*Assembly, name=A\n*Instance, name=I, part=P\n\n0., 0., 0., 0., 0., 1., 90.\n"
+            "*End Instance\n",
+     {"line 17", "*INSTANCE", "without a translation"}},
     {"1, 2\n*Node\n", {"line 1", "before the first keyword"}}};
 
 INSTANTIATE_TEST_SUITE_P(Abaqus, RefusedKeyword, ::testing::ValuesIn(refused_keywords));
