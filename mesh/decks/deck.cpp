@@ -605,9 +605,14 @@ class Tying {
 
   const Vector& position(int node) const { return mesh_.positions[std::size_t(node)]; }
   int order(const FreeFace& face) const { return mesh_.blocks[face.block].order; }
+  /// Of its edges in the mean.
   double size(const FreeFace& face) const
   {
-    return norm(minus(position(face.nodes[1]), position(face.nodes[0])));
+    const std::size_t n = face.nodes.size() / std::size_t(order(face));
+    double around = 0.0;
+    for (std::size_t i = 0; i < n; ++i)
+      around += norm(minus(position(face.nodes[(i + 1) % n]), position(face.nodes[i])));
+    return around / double(n);
   }
 
   Nearest at(const FreeFace& face, double r, double s, const Vector& x) const
