@@ -88,6 +88,11 @@ void transfer_declarations(auto& archive, auto& declared)
   archive.each(declared.shells, [](auto& a, auto& shell) {
     transfer_section(a, shell);
     a(shell.thickness);
+    a.optional(shell.table, [](auto& b, auto& table) {
+      b(table.over);
+      b(table.at);
+      b(table.values);
+    });
     a(shell.offset);
   });
   archive.each(declared.beams, [](auto& a, auto& beam) { transfer_beam(a, beam); });

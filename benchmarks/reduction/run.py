@@ -68,7 +68,7 @@ def timed(command, folder, most_s=None):
         printed.seek(0)
         text = printed.read()
     cpu_s = usage.ru_utime + usage.ru_stime
-    stopped = process.returncode < 0 and most_s is not None and cpu_s > most_s - 1
+    stopped = process.returncode < 0 and most_s is not None and cpu_s > 0.95 * most_s  # the kernel counts by ticks
     if process.returncode != 0 and not stopped:
         raise SystemExit(f"{' '.join(map(str, command))}\n{text[-2000:]}")
     return {"wall_s": wall, "cpu_s": cpu_s, "peak_MiB": usage.ru_maxrss / 1024, "printed": text, **({"stopped": True} if stopped else {})}

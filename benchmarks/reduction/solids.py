@@ -151,11 +151,15 @@ def cells(program, base):
             f"{program['from_chladni']:.0e} | {program['error']['median']:.1e}, {program['error']['largest']:.1e} |")  # fmt: skip
 
 
+def run_on(row):
+    return f"{row['machine']['processor']}, commit {row['machine']['commit']}"
+
+
 def table(result):
     lines = ["# Modes of solids beside CalculiX and scipy", "",
              "The clamped disc of 20 mm on one mesh of hexahedra with 20 nodes; wall and CPU seconds and peak memory of whole processes, one "
              "thread. scipy gets the matrices of Chladni, and its seconds are without their assembly. Written by `benchmarks/reduction/solids.py`.", "",
-             f"{result['machine']['processor']}, commit {result['machine']['commit']}, {result['ccx']}.", "",
+             f"{'; '.join(sorted({run_on(r) for r in result['runs']}))}; {result['ccx']}.", "",
              "Errors are those of the frequencies by their place in the order, relative, against the exact solid: they are those of the mesh. The "
              "frequencies of ccx have seven digits. A `>` stands before what a run had taken when it was stopped; more modes of that mesh were "
              "not tried with this program.", "",
@@ -166,7 +170,7 @@ def table(result):
         lines += [f"| {r['dofs']:,} | {r['modes']} | {name} | {cells(p, base)}" for name, p in r["programs"].items()]
     if "large" in result:
         r = result["large"]
-        lines += ["", f"A ring of {r['dofs']:,} DOFs ({r['elements']:,} elements, {r['case']}) to six masters at its hub and {r['modes']} modes, on one core:", "",
+        lines += ["", f"A ring of {r['dofs']:,} DOFs ({r['elements']:,} elements, {r['case']}) to six masters at its hub and {r['modes']} modes, on one core; {run_on(r)}:", "",
                   "| wall, s | CPU, s | peak, MiB | forecast, MiB | forecast over peak |", "|---" * 5 + "|",
                   f"| {r['wall_s']:.0f} | {r['cpu_s']:.0f} | {r['peak_MiB']:.0f} | {r['forecast_MiB']} | {r['forecast_MiB'] / r['peak_MiB']:.3f} |"]  # fmt: skip
     return "\n".join(lines) + "\n"
@@ -205,11 +209,11 @@ def main():
         result["runs"] = [r for r in result["runs"] if r["case"] != case or r["modes"] not in modes]
         for count in modes:
             with tempfile.TemporaryDirectory() as name:
-                result["runs"].append(measure(pathlib.Path(name), case, count, exact, dict(others)))
+                result["runs"].append({**measure(pathlib.Path(name), case, count, exact, dict(others)), "machine": run.machine()})
     result["runs"].sort(key=lambda r: (r["dofs"], r["modes"]))
     if large != "none":
         with tempfile.TemporaryDirectory() as name:
-            result["large"] = reduced(pathlib.Path(name), large, min(modes))
+            result["large"] = {**reduced(pathlib.Path(name), large, min(modes)), "machine": run.machine()}
     run.publish(arguments.output, "reduction_solids", result, table(result))
     print(table(result))
 

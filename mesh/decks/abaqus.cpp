@@ -1056,7 +1056,17 @@ class AbaqusDeclarer {
         deck_(deck),
         units_(units),
         holders_(deck)
-  {}
+  {
+    const auto first = std::ranges::find(keywords, "STEP", &Keyword::name);
+    for (auto step = first; step != keywords.end(); ++step) {
+      if (step == first || step->name != "STEP" || !step->has("PERTURBATION")) continue;
+      all_.notes.push_back(fmt::format(
+          "{}: *STEP, PERTURBATION: the steps before it load the body, whose vibrations then have "
+          "other frequencies; those of the body without loads are found here",
+          step->place));
+      break;
+    }
+  }
 
   Declarations declare()
   {

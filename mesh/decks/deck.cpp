@@ -496,7 +496,7 @@ void add_equations_of_middles(Deck& deck)
   }
 }
 
-/// Holds what a deck holds in own axes of nodes of equations.
+/// A support in own axes of a node that equations alone move would hold nothing.
 void refuse_held_apart(const Deck& deck)
 {
   for (const auto& [node, entry] : deck.held_apart)

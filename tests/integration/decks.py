@@ -63,6 +63,23 @@ def of_order(chladni, folder, order):
                 yield f"{name}, order {order}: {f} Hz instead of {g} Hz"
 
 
+def nodes_have_thicknesses(chladni, folder):
+    """*NODAL THICKNESS takes the place of that of the section."""
+    plain = input_file(1)
+    rows = "\n".join(f"{n}, {2.0 * THICKNESS + 0.001 * x!r}" for n, x, _ in grid(1)[0])
+    (folder / "nodal.inp").write_text(plain.replace("*Material", f"*Nodal Thickness\n{rows}\n*Material"))
+    run(chladni, "import", folder / "nodal.inp", "--length-unit", "mm", "--output", folder / "nodal.toml")
+    by_nodes = frequencies(chladni, folder / "nodal.toml")
+    (folder / "linear.inp").write_text(plain)
+    run(chladni, "import", folder / "linear.inp", "--length-unit", "mm", "--output", folder / "linear.toml")
+    text = (folder / "linear.toml").read_text()
+    line = next(line for line in text.split("\n") if line.startswith("thickness"))
+    (folder / "linear.toml").write_text(text.replace(line, f'thickness = "{2e-3 * THICKNESS!r} + 0.001 * x"'))
+    for f, g in zip(by_nodes, frequencies(chladni, folder / "linear.toml"), strict=True):
+        if abs(f - g) > 1e-9 * g:
+            yield f"thicknesses of nodes: {f} Hz instead of {g} Hz"
+
+
 def units_are_asked_for(chladni, folder):
     for words in (("mesh", folder / "plate.bdf"), ("import", folder / "plate.bdf")):
         done = start(chladni, *words)
@@ -85,6 +102,15 @@ def bad_decks_are_refused(chladni, folder):
     done = start(chladni, "modes", folder / "light.toml", "--output", folder)
     if done.returncode == 0 or "no density" not in done.stderr:
         yield f"modes of a body without mass: {done.stderr}"
+
+
+def loaded_states_are_told(chladni, folder):
+    """Vibrations about a loaded state are not those that are found."""
+    steps = "*Step\n*Static\n*End Step\n*Step, Perturbation\n*Frequency\n3\n*End Step\n"
+    (folder / "loaded.inp").write_text(input_file(1) + steps)
+    said = run(chladni, "import", folder / "loaded.inp", "--length-unit", "mm", "--output", folder / "loaded.toml")
+    if "of the body without loads are found" not in said:
+        yield f"vibrations about a loaded state: {said!r}"
 
 
 def body(*parts, turn=0.0, end=""):
@@ -266,7 +292,7 @@ def main(programs):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         failures = [*of_order(chladni, folder, 1), *of_order(chladni, folder, 2),
-                    *units_are_asked_for(chladni, folder), *bad_decks_are_refused(chladni, folder),
+                    *units_are_asked_for(chladni, folder), *nodes_have_thicknesses(chladni, folder), *loaded_states_are_told(chladni, folder), *bad_decks_are_refused(chladni, folder),
                     *parts_are_joined(chladni, folder), *supports_turn(chladni, folder),
                     *trusses_are_springs(chladni, folder), *rods_and_bushes_are_springs(chladni, folder), *cards_are_equations(chladni, folder), *nodes_of_no_element_move(chladni, folder)]  # fmt: skip
     print("\n".join(f"FAILED: {line}" for line in failures))
